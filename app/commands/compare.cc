@@ -65,10 +65,11 @@ int RunCompare(const CompareOptions& o) {
   Comparison comparison;
   {
     Progress progress("compare");
-    comparison = Compare(model, Hypothesis::Base(c.rig), !o.no_blocks,
+    const Hypothesis drawing = Hypothesis::Base(c.rig);
+    comparison = Compare(model, drawing, !o.no_blocks,
                          [&](double f, const std::string& text) { progress.Update(f, text); });
     progress.Update(0.99, "what coils differ by");
-    const std::string said = SaidOfCoils(model, Hypothesis::Base(c.rig), comparison.residual);
+    const std::string said = SaidOfCoils(model, drawing, comparison.residual);
     if (!said.empty()) comparison.words.push_back(said);
   }
   PrintComparison(comparison);

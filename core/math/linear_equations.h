@@ -1,7 +1,7 @@
 #pragma once
-/// Linear equations A x = b with dense matrices of free size, inverses, pseudoinverses, eigenvalues of symmetric ones. Each is one call of Eigen's
-/// decomposition of that name; the templates are made here once, instead of in every source that solves an equation
-/// (docs/decisions/005-build-time.md). Equations of fixed size in a period of the controller call Eigen themselves.
+/// Linear equations A x = b with dense matrices of free size, inverses, pseudoinverses, eigenvalues of symmetric ones.
+/// Each is one call of Eigen's decomposition of that name; the templates are made here once, instead of in every source
+/// that solves an equation (docs/decisions/005-build-time.md). Equations of fixed size in a period of the controller call Eigen themselves.
 ///
 /// Shapes: A (n x n), b (n), B (n x m) unless a line says otherwise. A singular A is not detected: the result is then
 /// not finite, or rounding errors.

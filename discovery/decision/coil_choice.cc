@@ -6,6 +6,7 @@
 
 #include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
+#include "discovery/search/fit_gram.h"
 
 namespace ambrig {
 
@@ -17,14 +18,6 @@ constexpr double kBelievable = 3.5;  // sd: one of forty lies beyond by chance i
 constexpr std::size_t kLeftOut = 2;  // errors that may be left out: gain and edge of one coil
 constexpr double kSds = 3;           // of the mean square of the amounts about 1
 constexpr double kStep = 3;          // of the doubt
-
-/// Zero where a row does not count or is of an unseen record.
-void LeaveOutUnseen(const CaseModel& model, Eigen::MatrixXd& columns) {
-  for (const Target& t : model.targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      if (!model.ok()[k] || !Counts(model, t, Which::kFit))
-        columns.row(static_cast<Index>(k)).setZero();
-}
 
 /// Least squares of the coils' errors (the first columns) and the free parameters of a fit, under their priors.
 class JointStep {
@@ -40,10 +33,12 @@ class JointStep {
       if (model.nuisances.any()) model.nuisances.Eliminate(columns.col(k).data());
     }
     columns.rightCols(free) = now.jacobian;
-    LeaveOutUnseen(model, columns);
-    const Eigen::Map<const Eigen::VectorXd> residual(now.residual.data(), rows);
-    normal_ = columns.transpose() * columns;
-    product_ = columns.transpose() * residual;
+    for (Index row = 0; row < rows; ++row)
+      if (!model.ok()[static_cast<std::size_t>(row)]) columns.row(row).setZero();
+    const Eigen::MatrixXd gram =
+        FitGram(model, FittedRecords(model, FitOptions()), columns, now.residual);
+    normal_ = gram.topLeftCorner(all, all);
+    product_ = gram.topRightCorner(all, 1);
     prior_ = Eigen::VectorXd::Ones(all);
     offset_ = Eigen::VectorXd::Zero(all);
     for (Index k = 0; k < free; ++k) {
@@ -66,9 +61,8 @@ class JointStep {
   /// Takes the step with this weight of a squared error, without errors of coils that are not believable in it.
   void Take(double weight) {
     for (;;) {
-      Eigen::MatrixXd A = weight * normal_(stay_, stay_);
-      A.diagonal() += prior_(stay_);
-      const Eigen::VectorXd x = SolveSymmetric(A, weight * product_(stay_) + offset_(stay_));
+      const Eigen::VectorXd x =
+          SolveSymmetric(Information(weight), weight * product_(stay_) + offset_(stay_));
       amounts_ = x.head(static_cast<Index>(coils().size()));
       Index worst = 0;
       if (amounts_.size() == 0 || amounts_.cwiseAbs().maxCoeff(&worst) <= kBelievable) return;
@@ -78,9 +72,10 @@ class JointStep {
 
   /// Sd of the errors of coils that are left, over that of their prior.
   Eigen::VectorXd Sds(double weight) const {
-    Eigen::MatrixXd A = weight * normal_(stay_, stay_);
-    A.diagonal() += prior_(stay_);
-    return InverseOf(A).diagonal().head(static_cast<Index>(coils().size())).cwiseSqrt();
+    return InverseOf(Information(weight))
+        .diagonal()
+        .head(static_cast<Index>(coils().size()))
+        .cwiseSqrt();
   }
 
   /// Whether the amounts of the step are what the coils of a machine differ by: all but those of one coil, and with the
@@ -93,6 +88,13 @@ class JointStep {
   }
 
  private:
+  /// Of the columns that take part, with their priors.
+  Eigen::MatrixXd Information(double weight) const {
+    Eigen::MatrixXd A = weight * normal_(stay_, stay_);
+    A.diagonal() += prior_(stay_);
+    return A;
+  }
+
   Index coils_;
   std::vector<Index> stay_;  // columns that take part, in order
   Eigen::MatrixXd normal_;

@@ -39,7 +39,8 @@ class Explainer {
   };
   UsedNuisances Used() const;
   void UseAgain(const UsedNuisances& used);
-  Eigen::MatrixXd BareSensitivities(const Hypothesis& h) const;
+  /// Puts the errors of coils aside: residual and sensitivities of `now` from which none was taken off.
+  FitResult WithoutCoilErrors(const FitResult& now);
   /// Of the amounts reported, beside everything else that is free.
   void StateSdOfCoilErrors(const FitResult& now);
   /// What the coils differ by, where the rig file states how much that may be: taken off everything from now on.

@@ -12,6 +12,7 @@
 #include "discovery/model/residual.h"
 #include "discovery/search/linear_step.h"
 #include "discovery/search/screen.h"
+#include "simulation/sampled/coil_spread.h"
 
 namespace ambrig {
 
@@ -75,22 +76,27 @@ void Explainer::RenewCoilFloors(const Hypothesis& as_filed, const FitResult& now
   AllowCoilErrors(now);
 }
 
-/// From all of which no error of a coil was taken off: those of the rig file's parameters as they were there, those of
-/// the adopted effects here.
-Eigen::MatrixXd Explainer::BareSensitivities(const Hypothesis& h) const {
-  Eigen::MatrixXd all = as_filed_jacobian_;
-  if (model_.nuisances.any()) model_.nuisances.Eliminate(all);
-  std::vector<std::size_t> adopted(h.free.size() - static_cast<std::size_t>(all.cols()));
-  if (adopted.empty()) return all;
-  std::iota(adopted.begin(), adopted.end(), static_cast<std::size_t>(all.cols()));
-  all.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(h.free.size()));
-  all.rightCols(static_cast<Eigen::Index>(adopted.size())) = Jacobian(model_, h, adopted);
-  return all;
+FitResult Explainer::WithoutCoilErrors(const FitResult& now) {
+  coil_kinds_.clear();
+  ApplyNuisances();
+  FitResult bare = now;
+  bare.residual = Residual(model_, now.predicted);
+  // of the rig's parameters as the rig file has them, of the adopted effects here
+  bare.jacobian = as_filed_jacobian_;
+  if (model_.nuisances.any()) model_.nuisances.Eliminate(bare.jacobian);
+  const auto rig = static_cast<std::size_t>(as_filed_jacobian_.cols());
+  std::vector<std::size_t> adopted(now.hypothesis.free.size() - rig);
+  if (adopted.empty()) return bare;
+  std::iota(adopted.begin(), adopted.end(), rig);
+  bare.jacobian.conservativeResize(Eigen::NoChange,
+                                   static_cast<Eigen::Index>(now.hypothesis.free.size()));
+  bare.jacobian.rightCols(static_cast<Eigen::Index>(adopted.size())) =
+      Jacobian(model_, now.hypothesis, adopted);
+  return bare;
 }
 
 void Explainer::AllowCoilErrors(const FitResult& now) {
-  coil_kinds_.clear();
-  ApplyNuisances();
+  const FitResult bare = WithoutCoilErrors(now);
   std::vector<NuisanceKind> possible = coil_errors_;
   std::erase_if(possible, [&](const NuisanceKind& kind) {
     return std::any_of(out_.adopted.begin(), out_.adopted.end(), [&](const EffectInstance& e) {
@@ -98,9 +104,6 @@ void Explainer::AllowCoilErrors(const FitResult& now) {
       return !current.empty() && kind.name.ends_with(" of " + current);
     });
   });
-  FitResult bare = now;
-  bare.residual = Residual(model_, now.predicted);
-  bare.jacobian = BareSensitivities(now.hypothesis);
   const CoilErrorChoice choice =
       ChooseCoilErrors(model_, possible, bare, out_.effective_sample_size);
   for (const std::size_t k : choice.chosen) coil_kinds_.push_back(possible[k]);
@@ -122,12 +125,8 @@ void Explainer::StateSdOfCoilErrors(const FitResult& now) {
   if (coil_kinds_.empty()) return;
   const std::vector<NuisanceKind> kinds = coil_kinds_;
   const UsedNuisances used = Used();
-  coil_kinds_.clear();
-  ApplyNuisances();
-  FitResult bare = now;
-  bare.jacobian = BareSensitivities(now.hypothesis);
-  const std::vector<double> sd =
-      SdOfCoilErrors(model_, kinds, bare, out_.effective_sample_size, coil_doubt_);
+  const std::vector<double> sd = SdOfCoilErrors(model_, kinds, WithoutCoilErrors(now),
+                                                out_.effective_sample_size, coil_doubt_);
   UseAgain(used);
   for (NuisanceFound& f : out_.nuisances)
     for (std::size_t k = 0; k < kinds.size(); ++k)

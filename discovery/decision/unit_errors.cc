@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/record/channels.h"
-#include "discovery/model/coil_errors.h"
 #include "discovery/model/residual.h"
+#include "simulation/sampled/coil_spread.h"
 
 namespace ambrig {
 

@@ -67,16 +67,11 @@ StretchColumn ColumnOf(const CaseModel& model, const std::vector<double>& change
 
 }  // namespace
 
-bool CoilsDiffer(const AmplifierParameters& amplifier) {
-  return amplifier.current_gain_spread > 0 || amplifier.edge_spread > 0;
-}
-
 std::vector<NuisanceKind> CoilErrorKinds(const CaseModel& model, const Hypothesis& h) {
   std::vector<CoilError> errors;
-  if (CoilsDiffer(h.rig.amplifier))
-    for (const BearingParameters& b : h.rig.bearings)
-      for (int coil = 1; coil <= b.coils(); ++coil)
-        AddErrorsOfCoil(h.rig.amplifier, b.name, coil, errors);
+  for (const BearingParameters& b : h.rig.bearings)
+    for (int coil = 1; coil <= b.coils(); ++coil)
+      AddErrorsOfCoil(h.rig.amplifier, b.name, coil, errors);
   std::vector<NuisanceKind> out;
   std::vector<double> change(model.size());
   for (std::size_t first = 0; first < errors.size(); first += kTogether) {

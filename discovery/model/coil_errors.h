@@ -9,11 +9,6 @@
 
 namespace ambrig {
 
-struct AmplifierParameters;
-
-/// Whether the rig file says that the coils of a machine differ.
-bool CoilsDiffer(const AmplifierParameters& amplifier);
-
 /// A kind of nuisance for each error of each coil, the same in all records; one sd is the spread of the rig file.
 /// The floors of `model` are set. Simulates every record once for each; empty where no spread is stated
 /// or `h` loses the rotor.

@@ -79,6 +79,8 @@ class CaseModel {
   std::size_t size() const { return measured_.size(); }
   const std::vector<double>& measured() const { return measured_; }
   const std::vector<char>& ok() const { return ok_; }
+  /// First row of a record in the flat vectors and the one behind its last.
+  std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
   /// Index of a row in its channel.
   std::size_t sample(std::size_t row) const { return sample_[row]; }
 
@@ -122,8 +124,6 @@ class CaseModel {
   RunStore* store = nullptr;  // looked up before a record is simulated
 
  private:
-  /// Flat rows of one record.
-  std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
   bool SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                       std::vector<double>& out) const;
   /// From the disk where a store is kept, else simulated.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "core/math/linear_equations.h"
 #include "discovery/model/in_parallel.h"
@@ -16,17 +14,6 @@ using Eigen::Index;
 namespace {
 
 constexpr double kFelt = 1e-4;  // least information on an amount, in 1/sd^2, for it to count
-
-/// First row and number of rows of a record, whose targets lie together.
-std::pair<Index, Index> RowsOf(const CaseModel& model, std::size_t record) {
-  Index first = 0, count = 0;
-  for (const Target& t : model.targets()) {
-    if (t.record != record) continue;
-    if (count == 0) first = static_cast<Index>(t.first);
-    count += static_cast<Index>(t.count);
-  }
-  return {first, count};
-}
 
 /// The columns of these kinds in `count` rows from `first` on; zero where a row does not count.
 Eigen::MatrixXd Columns(const CaseModel& model, const std::vector<NuisanceKind>& kinds,
@@ -53,8 +40,9 @@ void Nuisances::Use(const CaseModel& model, const std::vector<NuisanceKind>& kin
 
 void Nuisances::UseRecord(const CaseModel& model, std::size_t record) {
   OfRecord o;
-  std::tie(o.first, o.count) = RowsOf(model, record);
-  if (o.count == 0) return;
+  const auto [first, end] = model.RowsOf(record);
+  o.first = static_cast<Index>(first);
+  o.count = static_cast<Index>(end - first);
   o.record = record;
   for (std::size_t k = 0; k < kinds_.size(); ++k)
     if (!kinds_[k].in_all_records &&
@@ -79,8 +67,8 @@ void Nuisances::UseInAll(const CaseModel& model) {
   for (Index k = 0; k < in_all_.columns.cols(); ++k)
     EliminateRecords(in_all_.columns.col(k).data());
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
-    const auto [first, count] = RowsOf(model, r);
-    if (count == 0) continue;
+    const auto [from, end] = model.RowsOf(r);
+    const auto first = static_cast<Index>(from), count = static_cast<Index>(end - from);
     const auto part = in_all_.columns.middleRows(first, count);
     in_all_.spans.push_back(
         {first, count, r, !model.data().records[r].validate, part.transpose() * part});
@@ -101,6 +89,11 @@ Nuisances::Weighing Nuisances::WeighingOf(const std::vector<char>* records) cons
   });
   return {modes.vectors * share.asDiagonal() * modes.vectors.transpose(),
           InverseOf(normal + Eigen::MatrixXd::Identity(n, n) / weight_in_all_)};
+}
+
+bool Nuisances::AllTell(const std::vector<char>* records) const {
+  return std::ranges::all_of(
+      in_all_.spans, [&](const InAll::Span& span) { return !span.fitted || Tells(span, records); });
 }
 
 Eigen::VectorXd Nuisances::Product(const double* rows, const std::vector<char>* records) const {
@@ -135,11 +128,11 @@ void Nuisances::EliminateRecords(double* rows) const {
 void Nuisances::Eliminate(double* rows, const std::vector<char>* records) const {
   EliminateRecords(rows);
   if (!in_all_.kinds.empty())
-    EliminateInAll(rows, records, records ? WeighingOf(records) : weighing_);
+    EliminateInAll(rows, records, AllTell(records) ? weighing_ : WeighingOf(records));
 }
 
 void Nuisances::Eliminate(Eigen::MatrixXd& columns, const std::vector<char>* records) const {
-  const Weighing weighing = records && !in_all_.kinds.empty() ? WeighingOf(records) : weighing_;
+  const Weighing weighing = AllTell(records) ? weighing_ : WeighingOf(records);
   InParallel(static_cast<std::size_t>(columns.cols()), [&](std::size_t c) {
     double* rows = columns.col(static_cast<Index>(c)).data();
     EliminateRecords(rows);

@@ -90,6 +90,8 @@ class Nuisances {
   static bool Tells(const InAll::Span& span, const std::vector<char>* records) {
     return span.fitted && (!records || (*records)[span.record]);
   }
+  /// Whether no fitted record is left out: then the weighing is the one that is kept.
+  bool AllTell(const std::vector<char>* records) const;
   Weighing WeighingOf(const std::vector<char>* records) const;
   /// G' rows of what the records tell.
   Eigen::VectorXd Product(const double* rows, const std::vector<char>* records) const;

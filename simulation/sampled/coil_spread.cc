@@ -11,8 +11,12 @@ namespace {
 constexpr std::uint32_t kGains = 102, kEdges = 103;  // streams of the generator
 }
 
+bool CoilsDiffer(const AmplifierParameters& amplifier) {
+  return amplifier.current_gain_spread > 0 || amplifier.edge_spread > 0;
+}
+
 void DrawCoilSpread(const AmplifierParameters& amplifier, Plant* plant) {
-  if (amplifier.current_gain_spread == 0 && amplifier.edge_spread == 0) return;
+  if (!CoilsDiffer(amplifier)) return;
   const auto unit = static_cast<std::uint64_t>(amplifier.unit);
   std::uint64_t coil = 0;
   for (BearingPlant& b : plant->bearings)

@@ -7,6 +7,9 @@ namespace ambrig {
 
 struct Plant;
 
+/// Whether the rig file says that the coils of a machine differ.
+bool CoilsDiffer(const AmplifierParameters& amplifier);
+
 /// Draws every coil's errors from current_gain_spread, edge_spread and `unit`: the same rig has the same ones in
 /// every run. On top of those that effects have given it.
 void DrawCoilSpread(const AmplifierParameters& amplifier, Plant* plant);

@@ -3,27 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/read_file.h"
-#include "core/base/toml_edit.h"
 #include "discovery/decision/compare.h"
 #include "discovery/model/residual.h"
-#include "discovery/practice/examination.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "effects/catalogue.h"
-#include "rig/rig_file.h"
+#include "tests/discovery/clamped_reference.h"
 
 namespace ambrig {
 namespace {
 
-class UnitErrorsTest : public ::testing::Test {
+class UnitErrorsTest : public testing::ClampedReference {
  protected:
-  UnitErrorsTest() {
-    const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/examples/reference/rig.toml";
-    rig_ = ReadRigText(WithoutTomlTable(ReadFile(file), file, "bearings.Z"), file);
-    for (const ExaminationRecord& r : Examination(rig_, 3))
-      if (r.title.starts_with("clamped")) records_.push_back(r);
-  }
-
   /// Whether the records of a machine are within what others of its type show, and the errors of these.
   bool IsWithin(const RigParameters& machine, UnitErrors* errors = nullptr,
                 std::string* said = nullptr) const {
@@ -39,9 +29,6 @@ class UnitErrorsTest : public ::testing::Test {
     if (errors) *errors = found;
     return IsWithinUnits(model, compared.residual, found);
   }
-
-  RigParameters rig_;
-  std::vector<ExaminationRecord> records_;
 };
 
 TEST_F(UnitErrorsTest, HoldAnotherMachineOfTheType) {

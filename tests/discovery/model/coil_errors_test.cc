@@ -7,37 +7,28 @@
 #include <cmath>
 
 #include "actuators/electronics/amplifier_parameters.h"
-#include "core/base/read_file.h"
-#include "core/base/toml_edit.h"
 #include "discovery/decision/compare.h"
 #include "discovery/decision/explain.h"
 #include "discovery/decision/unit_errors.h"
 #include "discovery/model/residual.h"
-#include "discovery/practice/examination.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "effects/plant.h"
 #include "rig/rig_assembly.h"
-#include "rig/rig_file.h"
 #include "rig/true_rig.h"
 #include "simulation/sampled/coil_spread.h"
+#include "tests/discovery/clamped_reference.h"
 
 namespace ambrig {
 namespace {
 
-class CoilErrorsTest : public ::testing::Test {
+class CoilErrorsTest : public testing::ClampedReference {
  protected:
   CoilErrorsTest() {
-    const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/examples/reference/rig.toml";
-    rig_ = ReadRigText(WithoutTomlTable(ReadFile(file), file, "bearings.Z"), file);
-    for (const ExaminationRecord& r : Examination(rig_, 3))
-      if (r.title.starts_with("clamped")) records_.push_back(r);
     machine_.rig = rig_;
     machine_.rig.amplifier.unit = 77;
     data_ = EmptyCase(rig_, records_);
     FillRecords(Surroundings(), machine_, 5, nullptr, data_);
   }
-  RigParameters rig_;
-  std::vector<ExaminationRecord> records_;
   Hypothesis machine_;
   Case data_;
 };

@@ -32,6 +32,14 @@ class NuisanceTest : public ::testing::Test {
   NuisanceKind Zero() const {
     return {"zero of A.x", "sensor-zero", "m", 2e-6, StretchColumn(RowsOfAx(model(), -1, 2))};
   }
+  /// The same zero in all records, their amounts weighed by `w`.
+  Nuisances OneZeroOfAll(double w) const {
+    NuisanceKind zero = Zero();
+    zero.in_all_records = true;
+    Nuisances nuisances;
+    nuisances.Use(model(), {zero}, 1, w);
+    return nuisances;
+  }
   LinearCase linear_;
 };
 
@@ -125,10 +133,7 @@ TEST_F(NuisanceTest, TwoKindsOfOneShapeShareTheAmount) {
 // One amount for all records, of which the last is unseen: from the n rows of each fitted one.
 TEST_F(NuisanceTest, AmountsOfAllRecordsAreEstimatedFromTheFittedOnes) {
   const double w = 0.25, n = LinearCase::kRows;
-  NuisanceKind zero = Zero();
-  zero.in_all_records = true;
-  Nuisances nuisances;
-  nuisances.Use(model(), {zero}, 1, w);
+  const Nuisances nuisances = OneZeroOfAll(w);
   EXPECT_TRUE(nuisances.any());
   EXPECT_FALSE(nuisances.differ());
   EXPECT_EQ(nuisances.count(), 0u);
@@ -144,10 +149,7 @@ TEST_F(NuisanceTest, AmountsOfAllRecordsAreEstimatedFromTheFittedOnes) {
 // the estimate is taken off.
 TEST_F(NuisanceTest, WhatAllRecordsShareIsWeighedByItsCovariance) {
   const double w = 0.01, n = LinearCase::kRows;
-  NuisanceKind zero = Zero();
-  zero.in_all_records = true;
-  Nuisances nuisances;
-  nuisances.Use(model(), {zero}, 1, w);
+  const Nuisances nuisances = OneZeroOfAll(w);
   Eigen::VectorXd rows = RowsOfAx(model(), -1, 3);
   nuisances.Eliminate(rows.data());
   const double amount = 3 * 2 * 2 * n / (2 * 4 * n + 1 / w);
@@ -162,10 +164,7 @@ TEST_F(NuisanceTest, WhatAllRecordsShareIsWeighedByItsCovariance) {
 
 TEST_F(NuisanceTest, RecordsThatAreNotKnownTellNothingOfWhatAllShare) {
   const double w = 0.01, n = LinearCase::kRows;
-  NuisanceKind zero = Zero();
-  zero.in_all_records = true;
-  Nuisances nuisances;
-  nuisances.Use(model(), {zero}, 1, w);
+  const Nuisances nuisances = OneZeroOfAll(w);
   const std::vector<char> first_only = {1, 0, 0};
   for (const double of_second : {0.0, 1e6}) {
     Eigen::VectorXd rows = RowsOfAx(model(), 0, 3) + RowsOfAx(model(), 1, of_second);
