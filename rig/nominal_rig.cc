@@ -6,6 +6,7 @@ namespace {
 
 RigParameters WithoutCalibration(RigParameters rig) {
   for (Tolerance& t : rig.tolerances) t.true_value = kRequired;
+  for (BearingParameters& b : rig.bearings) b.coil_errors = CoilErrors{};
   return rig;
 }
 

@@ -29,6 +29,10 @@ BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, R
   }
   plant.lanes.unipolar = rig.amplifier.quadrants < 3;
   plant.base_resistance = plant.lanes.resistance;
+  for (std::size_t j = 0; j < b.coil_errors.current_gain.size(); ++j)
+    plant.current_sensor[j].gain = 1 + b.coil_errors.current_gain[j];
+  for (std::size_t j = 0; j < b.coil_errors.edge.size(); ++j)
+    plant.bridge[j].late_edge = b.coil_errors.edge[j];
   if (b.auxiliary && kind.add_auxiliary) kind.add_auxiliary(b, rotor);
   return plant;
 }

@@ -11,6 +11,7 @@
 #include "rig/amplifier_file.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/coil_errors_file.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_checks.h"
 #include "rig/rig_figures.h"
@@ -88,6 +89,7 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
     b.z = Within(t, "z", 0, kPlace);
   }
   b.kind->read(t, b, &tolerances);
+  ReadCoilErrors(t, b);
   if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);
   ReadAuxiliary(t, b, GapOf(b));
   if (const auto c = t.Table("controller")) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "actuators/electronics/amplifier_parameters.h"
+#include "actuators/electronics/coil_errors.h"
 #include "actuators/magnetics/opposed_stator.h"
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/thrust_stator.h"
@@ -43,6 +44,7 @@ struct BearingParameters {
   std::optional<AuxiliaryParameters> auxiliary;
   double auxiliary_z = kRequired;           // nan: at the bearing's plane [m]
   std::optional<PidParameters> controller;  // its own instead of the rig's
+  CoilErrors coil_errors;                   // that are known of this machine
 
   int coils() const;
   /// Names of the controlled axes: "A.x", "A.y"; "z"; "M.x".

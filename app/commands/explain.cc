@@ -18,6 +18,7 @@
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "discovery/model/coil_errors.h"
 #include "effects/effect.h"
 
 namespace ambrig {
@@ -82,11 +83,9 @@ void PrintNuisances(const std::vector<NuisanceFound>& nuisances) {
   for (const NuisanceFound& n : nuisances) {
     if (std::abs(n.value) < kSeen * n.sd) continue;
     const std::string unit = n.unit == "-" ? "" : " " + n.unit;
-    const std::size_t of = n.name.find(" of ");
-    if (n.record.empty() && of != std::string::npos) {
-      std::string& line = of_coils[n.name.substr(0, of)];
-      line += fmt::format("{}{} {:.2g}{}", line.empty() ? "" : ", ", n.name.substr(of + 4), n.value,
-                          unit);
+    if (!n.coil.empty()) {
+      std::string& line = of_coils[n.group == kCoilGain ? "current gain" : "edge"];
+      line += fmt::format("{}{} {:.2g}{}", line.empty() ? "" : ", ", n.coil, n.value, unit);
     } else {
       PrintWrapped(
           fmt::format("  {} in {}: {:.3g} +- {:.2g}{}", n.name, n.record, n.value, n.sd, unit));

@@ -55,6 +55,8 @@ constexpr WordKey kRigWords[] = {
     {"[bearings.NAME]", "poles", "a number, or a list of tables", "of a stator"},
     {"[bearings.NAME]", "coils", "a number, or a word of the template", "how windings are joined"},
     {"[bearings.NAME]", "sensor, auxiliary, controller, bias", "tables", "see their numbers"},
+    {"[bearings.NAME]", "coil_errors", "{ current_gain, edge }",
+     "of this machine, a number per coil: of the measured current's gain [-], of late edges [s]"},
     {"[detection]", "kind", kOfTheCatalogue, "docs/guide/detectors.md"},
     {"[detection]", "commissioning", "a file, none", "default: NAME.commissioning.toml"},
     {"[[effect]]", "name", "of ambrig effects", "physics that the base model leaves out"},

@@ -11,6 +11,8 @@
 #include "discovery/case/effect_target.h"
 #include "discovery/decision/last_fit.h"
 #include "discovery/decision/prepared_models.h"
+#include "discovery/model/coil_errors.h"
+#include "discovery/model/residual.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/screen.h"
 #include "effects/catalogue.h"
@@ -27,6 +29,20 @@ bool SameFolder(const std::string& a, const std::string& b) {
          fs::absolute(b).lexically_normal().parent_path();
 }
 
+/// @throws InputError for an effect that cannot be fitted at this target
+void RequireAdoptable(const Case& c, const EffectDescription& d, const std::string& target) {
+  const bool formula = d.id == "formula";
+  if (d.users_own && !formula)
+    throw InputError(d.id +
+                     " is what `ambrig refine` writes, allowed: an effect that `ambrig "
+                     "explain` proposes");
+  const auto is_formula = [](const EffectInstance& e) { return e.IsFormula(); };
+  if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
+    throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");
+  if (!formula)
+    RequireTarget(d, c.rig, target, fmt::format("--target = {}, allowed with {}:", target, d.id));
+}
+
 /// The comparison with the rig file, and both models made ready for fits. @throws InputError when no record has a channel
 /// to fit to.
 Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
@@ -36,6 +52,14 @@ Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& n
                      ": every channel of every record was left out (ambrig compare says why), "
                      "allowed: one channel or more that moves");
   return before;
+}
+
+/// The last fit, beside what the coils of the machine differ by, which its rig then holds where that is without doubt.
+FitResult FitToTheEnd(CaseModel& model, const FitResult& found, double independent) {
+  const bool known = RenewCoilErrors(model, found.hypothesis, independent);
+  FitResult last = LastFit(model, found, independent);
+  if (known) AddCoilErrors(AmountsOfNuisances(model, last.predicted), last.hypothesis.rig);
+  return last;
 }
 
 }  // namespace
@@ -48,15 +72,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   };
   const EffectDescription& d = EffectNamed(effect);
   const bool formula = d.id == "formula";
-  if (d.users_own && !formula)
-    throw InputError(d.id +
-                     " is what `ambrig refine` writes, allowed: an effect that `ambrig "
-                     "explain` proposes");
-  const auto is_formula = [](const EffectInstance& e) { return e.IsFormula(); };
-  if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
-    throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");
-  if (!formula)
-    RequireTarget(d, c.rig, target, fmt::format("--target = {}, allowed with {}:", target, d.id));
+  RequireAdoptable(c, d, target);
   Adoption a;
   CaseModel full(c), model(c, ThinningTo(c, kSearchRows));
   full.stop = model.stop = options.stop;
@@ -72,7 +88,9 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   a.ladder = {{"", a.before.ratio_fit, unseen},
               {"parameters", base.ratio_fit, base.ratio_validate}};
   if (formula) {
-    a.fit = base;  // it stands in the rig file and was fitted with the rig parameters
+    a.fit = FitToTheEnd(
+        model, base,
+        fit.effective_sample_size);  // it stands in the rig file and was fitted with the rig parameters
   } else {
     ScreenOptions what;
     what.effective_sample_size = fit.effective_sample_size;
@@ -84,8 +102,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
       throw InputError(
           fmt::format("{}: the model loses levitation in every fit of {}", c.file, effect));
     progress(0.7, "final fit");
-    a.fit = LastFit(model, FitOn(model, base, a.fit.hypothesis, fit.effective_sample_size),
-                    fit.effective_sample_size);
+    a.fit = FitToTheEnd(model, FitOn(model, base, a.fit.hypothesis, fit.effective_sample_size),
+                        fit.effective_sample_size);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
     a.ladder.push_back({NameAtTarget(e.name, e.target), a.fit.ratio_fit, a.fit.ratio_validate});
   }

@@ -1,6 +1,7 @@
 /// The rig file with what an adoption found. Only what was found changes: comments, order and every
 /// other digit of the user's file stay.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,24 @@ std::string WithEffects(std::string text, const std::string& file,
   return text + added;
 }
 
+/// The errors that the coils of a bearing are known to have, none of them to more than four digits; lists that the file has
+/// stay as written.
+std::string WithCoilErrors(std::string text, const std::string& file, const BearingParameters& b) {
+  const std::string path = fmt::format("bearings.{}.coil_errors", b.name);
+  const auto put = [&](const std::string& key, const std::vector<double>& errors) {
+    if (errors.empty()) return;
+    if (!HasTomlPath(text, file, path)) text = EditedToml(text, file, {{path, TomlLiteral{"{}"}}});
+    const TomlTable bearings = *TomlTable::FromText(text, file).Table("bearings");
+    const TomlTable known = *bearings.Table(b.name)->Table("coil_errors");
+    if (known.Has(key) && known.Numbers(key) == errors) return;
+    const std::string list = fmt::format("[{:.4g}]", fmt::join(errors, ", "));
+    text = EditedToml(text, file, {{path + "." + key, TomlLiteral{list}}});
+  };
+  put("current_gain", b.coil_errors.current_gain);
+  put("edge", b.coil_errors.edge);
+  return text;
+}
+
 /// Paths of parameters count tables from 1, those of edits from 0.
 std::string EditPath(std::string path) {
   const std::size_t open = path.find('['), close = path.find(']');
@@ -162,6 +181,7 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h,
                                                        Rounded(p.start).text, Rounded(p.sd).text,
                                                        Rounded(p.value).text)}}});
   }
+  for (const BearingParameters& b : h.rig.bearings) out = WithCoilErrors(out, file, b);
   return WithEffects(out, file, effects);
 }
 

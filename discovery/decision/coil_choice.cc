@@ -14,7 +14,8 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kBelievable = 3.5;  // sd: one of forty lies beyond by chance in fifty machines
+constexpr double kBelievable =
+    4;  // sd: one of forty lies beyond by chance in four hundred machines
 constexpr std::size_t kLeftOut = 2;  // errors that may be left out: gain and edge of one coil
 constexpr double kSds = 3;           // of the mean square of the amounts about 1
 constexpr double kStep = 3;          // of the doubt
@@ -41,13 +42,15 @@ class JointStep {
     product_ = gram.topRightCorner(all, 1);
     prior_ = Eigen::VectorXd::Ones(all);
     offset_ = Eigen::VectorXd::Zero(all);
+    shift_before_ = Eigen::VectorXd::Zero(free);
     for (Index k = 0; k < free; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const bool toleranced = now.hypothesis.free[i].sd > 0;
       prior_(coils_ + k) = toleranced ? 1 : 1e-9;
-      if (toleranced) offset_(coils_ + k) = -now.hypothesis.Coordinate(i);
+      if (toleranced) shift_before_(k) = now.hypothesis.Coordinate(i);
       stay_.push_back(coils_ + k);
     }
+    offset_.tail(free) = -shift_before_;
   }
 
   /// The errors of coils that are left, by number.
@@ -64,6 +67,7 @@ class JointStep {
       const Eigen::VectorXd x =
           SolveSymmetric(Information(weight), weight * product_(stay_) + offset_(stay_));
       amounts_ = x.head(static_cast<Index>(coils().size()));
+      shifts_ = x.tail(shift_before_.size()) + shift_before_;
       Index worst = 0;
       if (amounts_.size() == 0 || amounts_.cwiseAbs().maxCoeff(&worst) <= kBelievable) return;
       stay_.erase(stay_.begin() + worst);
@@ -78,13 +82,18 @@ class JointStep {
         .cwiseSqrt();
   }
 
-  /// Whether the amounts of the step are what the coils of a machine differ by: all but those of one coil, and with the
-  /// spread that the rig file states.
+  /// Whether the amounts of the step are what the coils of a machine differ by, all but those of one coil, and those of the
+  /// rig parameters what their tolerances allow: with the spreads that the rig file states.
   bool IsBelievable() const {
     const auto left = static_cast<std::size_t>(amounts_.size());
     if (left == 0 || left + kLeftOut < static_cast<std::size_t>(coils_)) return false;
-    const double n = static_cast<double>(left);
-    return amounts_.squaredNorm() / n < 1 + kSds * std::sqrt(2 / n);
+    double square = amounts_.squaredNorm(), n = static_cast<double>(left);
+    for (Index k = 0; k < shifts_.size(); ++k) {
+      if (prior_(coils_ + k) < 1) continue;  // of an effect, which has no tolerance
+      square += shifts_(k) * shifts_(k);
+      ++n;
+    }
+    return square / n < 1 + kSds * std::sqrt(2 / n);
   }
 
  private:
@@ -98,7 +107,10 @@ class JointStep {
   Index coils_;
   std::vector<Index> stay_;  // columns that take part, in order
   Eigen::MatrixXd normal_;
-  Eigen::VectorXd product_, prior_, offset_, amounts_;
+  Eigen::VectorXd product_, prior_, offset_;
+  Eigen::VectorXd shift_before_,
+      shifts_;  // of the free parameters from the drawing [sd], before the step and after it
+  Eigen::VectorXd amounts_;
 };
 
 }  // namespace

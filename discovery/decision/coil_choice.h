@@ -15,7 +15,7 @@ struct CoilErrorChoice {
 /// Those of `possible` (discovery/model/coil_errors.h, rows of `model`) whose amount beside the free parameters of `now` is
 /// one that a coil of this type can have: a larger one stands for something that is to be named. One linear step of
 /// all of them together from `now`, whose sensitivities and residual hold no error of a coil. Without doubt where the
-/// amounts are then what the coils of a machine differ by; beside an effect that is missing and resembles them they are not,
+/// amounts are then what the coils of a machine differ by, and the rig parameters within their tolerances; beside an effect that is missing and resembles them they are not,
 /// and are doubted by as much as makes them so, at most by what `now` leaves.
 CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<NuisanceKind>& possible,
                                  const FitResult& now, double effective_sample_size);

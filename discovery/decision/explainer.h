@@ -81,8 +81,6 @@ class Explainer {
   bool FindInputs(const FitResult& base);
   std::vector<NuisanceKind> ChooseFrom(const std::vector<NuisanceKind>& kinds,
                                        const FitResult& now) const;
-  /// The amounts of the nuisances in what a fit leaves.
-  std::vector<NuisanceFound> AmountsIn(const FitResult& fit);
   /// The amounts of the nuisances at the end.
   void ReportNuisances(const FitResult& now);
   /// An effect that the last fit leaves without a size goes again.

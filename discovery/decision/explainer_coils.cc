@@ -21,12 +21,6 @@ namespace {
 constexpr double kNoise = 1.02;  // error over the noise up to which nothing is to be explained
 constexpr double kFallen = 0.5;  // of the squared error beside the noise: they are then seen better
 
-/// "A.i3" of "A.coil3"; empty: no coil.
-std::string CurrentOfCoil(const std::string& target) {
-  const std::size_t at = target.find(".coil");
-  return at == std::string::npos ? "" : target.substr(0, at) + ".i" + target.substr(at + 5);
-}
-
 }  // namespace
 
 void Explainer::ApplyNuisances() {
@@ -99,10 +93,8 @@ void Explainer::AllowCoilErrors(const FitResult& now) {
   const FitResult bare = WithoutCoilErrors(now);
   std::vector<NuisanceKind> possible = coil_errors_;
   std::erase_if(possible, [&](const NuisanceKind& kind) {
-    return std::any_of(out_.adopted.begin(), out_.adopted.end(), [&](const EffectInstance& e) {
-      const std::string current = CurrentOfCoil(e.target);
-      return !current.empty() && kind.name.ends_with(" of " + current);
-    });
+    return std::any_of(out_.adopted.begin(), out_.adopted.end(),
+                       [&](const EffectInstance& e) { return e.target == kind.coil; });
   });
   const CoilErrorChoice choice =
       ChooseCoilErrors(model_, possible, bare, out_.effective_sample_size);

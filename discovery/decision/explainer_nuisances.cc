@@ -120,19 +120,10 @@ void Explainer::DropNuisances(FitResult& base, FitResult& now) {
   bank_ = bank;
 }
 
-/// The amounts of the nuisances in what a fit leaves.
-std::vector<NuisanceFound> Explainer::AmountsIn(const FitResult& fit) {
-  const Nuisances used = model_.nuisances;
-  model_.nuisances = Nuisances();
-  std::vector<NuisanceFound> found = used.Amounts(model_, Residual(model_, fit.predicted));
-  model_.nuisances = used;
-  return found;
-}
-
 /// The amounts of the nuisances at the end.
 void Explainer::ReportNuisances(const FitResult& now) {
   if (!model_.nuisances.any()) return;
-  out_.nuisances = AmountsIn(now);
+  out_.nuisances = AmountsOfNuisances(model_, now.predicted);
   StateSdOfCoilErrors(now);
 }
 
@@ -140,7 +131,7 @@ void Explainer::ReportNuisances(const FitResult& now) {
 /// rig would be the same in all.
 bool Explainer::FindLateRows(const FitResult& base) {
   if (!full_.nuisances.differ()) return false;
-  const std::vector<NuisanceFound> found = AmountsIn(base);
+  const std::vector<NuisanceFound> found = AmountsOfNuisances(model_, base.predicted);
   std::vector<int> rows(full_.data().records.size(), 0);
   bool some = false, all = true;
   for (const NuisanceFound& f : found) {
@@ -169,7 +160,7 @@ bool Explainer::FindInputs(const FitResult& base) {
   if (options_.inputs <= 0 || declared <= 0 || !full_.nuisances.differ()) return false;
   const std::vector<CaseRecord>& records = full_.data().records;
   std::vector<double> larger(records.size(), 0);
-  for (const NuisanceFound& f : AmountsIn(base))
+  for (const NuisanceFound& f : AmountsOfNuisances(model_, base.predicted))
     for (std::size_t r = 0; r < records.size(); ++r)
       if (f.name == kInputGain && f.record == records[r].data_file && f.sd < kKnown * declared)
         larger[r] = f.value;

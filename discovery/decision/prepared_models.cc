@@ -40,26 +40,22 @@ std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
   return spans;
 }
 
-namespace {
-
-/// What the coils of the machine differ by, beside these nuisances of its records: as Explain takes it off before any
-/// effect is sought.
-void AddCoilErrors(CaseModel& full, CaseModel& thin, const Hypothesis& nominal,
-                   const std::vector<NuisanceKind>& of_records, double independent) {
-  if (!CoilsDiffer(nominal.rig.amplifier)) return;
-  const std::vector<NuisanceKind> possible = CoilErrorKinds(thin, nominal);
-  if (possible.empty()) return;
+bool RenewCoilErrors(CaseModel& thin, const Hypothesis& at, double independent) {
+  if (!CoilsDiffer(at.rig.amplifier)) return false;
+  std::vector<NuisanceKind> kinds = thin.nuisances.kinds();
+  std::erase_if(kinds, [](const NuisanceKind& kind) { return !kind.coil.empty(); });
+  const double weight = RowWeight(thin, 1, independent);
+  thin.nuisances.Use(thin, kinds, weight);
+  const std::vector<NuisanceKind> possible = CoilErrorKinds(thin, at);
+  if (possible.empty()) return false;
   FitOptions here;
   here.iterations = 0;
   here.effective_sample_size = independent;
-  const CoilErrorChoice choice =
-      ChooseCoilErrors(thin, possible, Fit(thin, nominal, here), independent);
-  std::vector<NuisanceKind> of_coils;
-  for (const std::size_t k : choice.chosen) of_coils.push_back(possible[k]);
-  UseNuisancesInBoth(full, thin, of_records, of_coils, independent, choice.doubt);
+  const CoilErrorChoice choice = ChooseCoilErrors(thin, possible, Fit(thin, at, here), independent);
+  for (const std::size_t k : choice.chosen) kinds.push_back(possible[k]);
+  thin.nuisances.Use(thin, kinds, weight, weight / choice.doubt);
+  return choice.doubt == 1;
 }
-
-}  // namespace
 
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   Comparison before = Compare(full, nominal, false);
@@ -67,12 +63,10 @@ Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nom
   thin.LimitAs(full);
   PassFloorsOn(full, thin);
   UseBranchesInBoth(full, thin, nominal);
-  std::vector<NuisanceKind> declared;
-  if (full.data().nuisances.any()) {
-    declared = NuisanceKindsOf(full, nominal, before.predicted, true);
-    UseNuisancesInBoth(full, thin, declared, {}, before.effective_sample_size, 1);
-  }
-  AddCoilErrors(full, thin, nominal, declared, before.effective_sample_size);
+  if (full.data().nuisances.any())
+    UseNuisancesInBoth(full, thin, NuisanceKindsOf(full, nominal, before.predicted, true), {},
+                       before.effective_sample_size, 1);
+  RenewCoilErrors(thin, nominal, before.effective_sample_size);
   return before;
 }
 

@@ -29,4 +29,9 @@ std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
 /// tolerances, the nuisances that the case declares and the errors of the coils whose spread the rig file states.
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal);
 
+/// Takes off from `thin` what the coils of the machine differ by beside its free parameters at `at`, as Explain does before
+/// any effect is sought, in place of what was taken off before. Whether the errors are without doubt
+/// (discovery/decision/coil_choice.h); false too where no spread is stated.
+bool RenewCoilErrors(CaseModel& thin, const Hypothesis& at, double independent);
+
 }  // namespace ambrig

@@ -72,10 +72,10 @@ bool IsWithinUnits(const CaseModel& model, const std::vector<double>& residual,
 
 std::string SaidOfCoils(const CaseModel& model, const Hypothesis& h,
                         const std::vector<double>& residual) {
-  constexpr double kNoiseAlone = 1.05;
+  constexpr double kNoiseAlone = 1.05, kSeen = 1.01;
   if (!CoilsDiffer(h.rig.amplifier) || Ratio(model, residual, Which::kAll) < kNoiseAlone) return "";
   const UnitErrors units = ErrorsOfUnits(model, ChangesOfUnits(model, h));
-  if (units.most.empty()) return "";
+  if (units.most.empty() || units.largest < kSeen) return "";
   return fmt::format(
       "the coils of machines of this type, which differ as the rig file states, make up to {:.2f} "
       "times the noise: {}",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discovery/model/branch_rows.h"
 #include "discovery/model/model.h"
@@ -15,6 +16,7 @@ using Eigen::Index;
 
 namespace {
 
+constexpr double kSpreads = 5;        // beyond what a search believes to be errors of coils
 constexpr std::size_t kTogether = 8;  // predictions that are in memory together
 
 /// One error of one coil, as an effect of the size of one sd.
@@ -23,6 +25,10 @@ struct CoilError {
   double sd = 0;
   EffectInstance effect;
 };
+
+std::string CoilTarget(const std::string& bearing, int coil) {
+  return fmt::format("{}.coil{}", bearing, coil);
+}
 
 /// The mean voltage that a bridge gives too much when its on-phase ends late [V/s].
 double VoltsOfEdge(const AmplifierParameters& a) {
@@ -38,7 +44,7 @@ double VoltsOfEdge(const AmplifierParameters& a) {
 
 void AddErrorsOfCoil(const AmplifierParameters& a, const std::string& bearing, int coil,
                      std::vector<CoilError>& out) {
-  const std::string target = fmt::format("{}.coil{}", bearing, coil),
+  const std::string target = CoilTarget(bearing, coil),
                     channel = fmt::format("{}.i{}", bearing, coil);
   const auto add = [&](const char* what, const char* group, const char* unit, double sd,
                        const char* effect, const char* parameter, double value) {
@@ -47,11 +53,19 @@ void AddErrorsOfCoil(const AmplifierParameters& a, const std::string& bearing, i
     out.push_back({fmt::format("{} of {}", what, channel), group, unit, sd, e});
   };
   if (a.current_gain_spread > 0)
-    add("current gain", "coil-gain", "-", a.current_gain_spread, "current-sensor-gain", "gain",
+    add("current gain", kCoilGain, "-", a.current_gain_spread, "current-sensor-gain", "gain",
         1 + a.current_gain_spread);
   if (a.edge_spread > 0 && VoltsOfEdge(a) > 0)
-    add("edge", "coil-edge", "s", a.edge_spread, "amplifier-offset", "offset",
+    add("edge", kCoilEdge, "s", a.edge_spread, "amplifier-offset", "offset",
         VoltsOfEdge(a) * a.edge_spread);
+}
+
+std::vector<CoilError> ErrorsOfCoils(const RigParameters& rig) {
+  std::vector<CoilError> errors;
+  for (const BearingParameters& b : rig.bearings)
+    for (int coil = 1; coil <= b.coils(); ++coil)
+      AddErrorsOfCoil(rig.amplifier, b.name, coil, errors);
+  return errors;
 }
 
 /// The change over the floor as a column, without the stretches that it leaves as they are.
@@ -68,10 +82,7 @@ StretchColumn ColumnOf(const CaseModel& model, const std::vector<double>& change
 }  // namespace
 
 std::vector<NuisanceKind> CoilErrorKinds(const CaseModel& model, const Hypothesis& h) {
-  std::vector<CoilError> errors;
-  for (const BearingParameters& b : h.rig.bearings)
-    for (int coil = 1; coil <= b.coils(); ++coil)
-      AddErrorsOfCoil(h.rig.amplifier, b.name, coil, errors);
+  const std::vector<CoilError> errors = ErrorsOfCoils(h.rig);
   std::vector<NuisanceKind> out;
   std::vector<double> change(model.size());
   for (std::size_t first = 0; first < errors.size(); first += kTogether) {
@@ -85,10 +96,37 @@ std::vector<NuisanceKind> CoilErrorKinds(const CaseModel& model, const Hypothesi
       ChangeOverFloor(model, *predicted[0], *predicted[1 + k], change.data());
       DropJumps(model, change.data());
       const CoilError& e = errors[first + k];
-      out.push_back({e.name, e.group, e.unit, e.sd, ColumnOf(model, change), true});
+      out.push_back(
+          {e.name, e.group, e.unit, e.sd, ColumnOf(model, change), true, e.effect.target});
     }
   }
   return out;
+}
+
+bool IsWithinCoilErrors(const EffectInstance& effect, const RigParameters& rig) {
+  for (const CoilError& e : ErrorsOfCoils(rig)) {
+    if (e.effect.name != effect.name || e.effect.target != effect.target) continue;
+    bool within = true;
+    for (std::size_t k = 0; k < effect.table.size(); ++k) {
+      const double null = effect.table[k].null_value;
+      within = within &&
+               std::abs(effect.values[k] - null) <= kSpreads * std::abs(e.effect.values[k] - null);
+    }
+    return within;
+  }
+  return false;
+}
+
+void AddCoilErrors(const std::vector<NuisanceFound>& found, RigParameters& rig) {
+  for (BearingParameters& b : rig.bearings)
+    for (int coil = 1; coil <= b.coils(); ++coil)
+      for (const NuisanceFound& f : found) {
+        if (f.coil != CoilTarget(b.name, coil)) continue;
+        std::vector<double>& all =
+            f.group == kCoilGain ? b.coil_errors.current_gain : b.coil_errors.edge;
+        all.resize(static_cast<std::size_t>(b.coils()));
+        all[static_cast<std::size_t>(coil - 1)] += f.value;
+      }
 }
 
 }  // namespace ambrig

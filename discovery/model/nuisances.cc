@@ -155,7 +155,7 @@ std::vector<NuisanceFound> Nuisances::Amounts(const CaseModel& model,
       const NuisanceKind& kind = kinds_[kinds[k]];
       const auto i = static_cast<Index>(k);
       out.push_back({record, kind.name, kind.unit, amount(i) * kind.sd,
-                     std::sqrt(covariance(i, i)) * kind.sd});
+                     std::sqrt(covariance(i, i)) * kind.sd, kind.group, kind.coil});
     }
   };
   std::vector<double> rest = residual;
@@ -190,8 +190,8 @@ std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const 
         left(static_cast<Index>(k)) = there(static_cast<Index>(thin.sample(few.first + k)));
       column.Append(static_cast<Index>(few.first), std::move(left));
     }
-    out.push_back(
-        {kind.name, kind.group, kind.unit, kind.sd, std::move(column), kind.in_all_records});
+    out.push_back({kind.name, kind.group, kind.unit, kind.sd, std::move(column),
+                   kind.in_all_records, kind.coil});
   }
   return out;
 }

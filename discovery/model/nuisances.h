@@ -19,12 +19,13 @@ struct RigParameters;
 /// A kind of nuisance: "zero of A.x", "logger zero of A.i1", "drift of A.x", "time shift", "input gain",
 /// "current gain of A.i1", "edge of A.i1".
 struct NuisanceKind {
-  // group: sensor-zero | logger-zero | drift | time-shift | input-gain; in all records: coil-gain | coil-edge
+  // group: sensor-zero | logger-zero | drift | time-shift | input-gain; in all records those of coil_errors.h
   std::string name, group;
   std::string unit;
   double sd = 0;                // prior, in `unit`
   StretchColumn column;         // of one sd, all rows of a model, over the floor
   bool in_all_records = false;  // one amount for all records; else one for each
+  std::string coil = {};        // whose error it is, "A.coil3"; empty: not one of a single coil
 };
 
 /// An amount found in one record, or in all of them.
@@ -32,6 +33,7 @@ struct NuisanceFound {
   std::string record;  // its data file; empty: all records
   std::string name, unit;
   double value = 0, sd = 0;
+  std::string group = {}, coil = {};  // as its kind's
 };
 
 // names of the clock's and of the input's kind
@@ -47,6 +49,7 @@ class Nuisances {
   void Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight) {
     Use(model, kinds, weight, weight);
   }
+  const std::vector<NuisanceKind>& kinds() const { return kinds_; }
   bool any() const { return !records_.empty() || !in_all_.kinds.empty(); }
   /// Whether some amounts differ from record to record.
   bool differ() const { return !records_.empty(); }

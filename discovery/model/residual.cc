@@ -7,15 +7,28 @@
 
 namespace ambrig {
 
+namespace {
+
+/// With the nuisances still in it.
+std::vector<double> WholeResidual(const CaseModel& model, const std::vector<double>& predicted) {
+  std::vector<double> r(model.size());
+  ChangeOverFloor(model, predicted, model.measured(), r.data());
+  LimitInBranches(model, r.data());
+  return r;
+}
+
+}  // namespace
+
 std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted,
                              const QuickLook* look) {
-  std::vector<double> r(model.size());
-  for (const Target& t : model.targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      r[k] = model.ok()[k] ? (model.measured()[k] - predicted[k]) / t.floor : 0;
-  LimitInBranches(model, r.data());
+  std::vector<double> r = WholeResidual(model, predicted);
   if (model.nuisances.any()) model.nuisances.Eliminate(r.data(), look ? &look->records : nullptr);
   return r;
+}
+
+std::vector<NuisanceFound> AmountsOfNuisances(const CaseModel& model,
+                                              const std::vector<double>& predicted) {
+  return model.nuisances.Amounts(model, WholeResidual(model, predicted));
 }
 
 void ChangeOverFloor(const CaseModel& model, const std::vector<double>& from,

@@ -11,6 +11,10 @@ namespace ambrig {
 std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted,
                              const QuickLook* look = nullptr);
 
+/// The amounts of the nuisances of `model` in what this prediction leaves.
+std::vector<NuisanceFound> AmountsOfNuisances(const CaseModel& model,
+                                              const std::vector<double>& predicted);
+
 /// (to - from)/floor of two predictions into all rows of `out`; 0 where a sample does not count.
 void ChangeOverFloor(const CaseModel& model, const std::vector<double>& from,
                      const std::vector<double>& to, double* out);

@@ -16,6 +16,8 @@ namespace {
 /// Streams of random numbers of one seed.
 enum TruthStream : std::uint32_t { kParameters = 101, kTargets, kSizeStream };
 
+constexpr std::uint64_t kUnitNumbers = 100000;
+
 }  // namespace
 
 RigParameters DrawRig(const RigParameters& rig, std::uint64_t seed) {
@@ -25,6 +27,7 @@ RigParameters DrawRig(const RigParameters& rig, std::uint64_t seed) {
     if (const double* at = ParameterAt(rig, t.path))
       SetParameter(truth, t.path,
                    *at + t.sd * std::clamp(Normal(seed, kParameters, k++), -2.5, 2.5));
+  truth.amplifier.unit += 1 + static_cast<double>(seed % kUnitNumbers);
   return truth;
 }
 

@@ -9,7 +9,8 @@
 
 namespace ambrig {
 
-/// Every toleranced parameter moved by a normal draw, at most 2.5 sd.
+/// Another machine of the type: every toleranced parameter moved by a normal draw, at most 2.5 sd, and another `unit`, whose
+/// coils differ as the rig file says.
 RigParameters DrawRig(const RigParameters& rig, std::uint64_t seed);
 
 /// `wanted`, or with "" one of the targets of this rig. @throws InputError that lists them

@@ -101,9 +101,10 @@ std::string AnswerText(const HiddenCase& hidden, const HideRequest& request,
                                                   : "none";
   return fmt::format(
       "[\"{}\"]\nverdict = [\"{}\"]\neffects = [\n{}]\nparameters = {{ {} }}\nworst = \"{:.1f} "
-      "times the noise at {}\"\nseed = {}\ntrue_parameters = {{ {} }}\n",
+      "times the noise at {}\"\nseed = {}\nunit = {:.0f}\ntrue_parameters = {{ {} }}\n",
       name, verdict, SlotsText(slots), parameters, hidden.worst_ratio,
-      hidden.worst_channel.empty() ? "-" : hidden.worst_channel, request.seed, truth);
+      hidden.worst_channel.empty() ? "-" : hidden.worst_channel, request.seed,
+      hidden.truth.amplifier.unit, truth);
 }
 
 }  // namespace ambrig

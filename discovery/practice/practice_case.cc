@@ -8,6 +8,7 @@
 #include "core/base/errors.h"
 #include "core/math/noise.h"
 #include "core/record/channels.h"
+#include "discovery/model/coil_errors.h"
 #include "discovery/model/floor.h"
 #include "discovery/practice/drawn_truth.h"
 #include "discovery/practice/laws/practice_law.h"
@@ -26,7 +27,6 @@ namespace ambrig {
 namespace {
 
 constexpr int kAttempts = 12;
-constexpr std::uint64_t kUnitNumbers = 100000;
 constexpr double kMostNoise = 4;  // that laws may make of the noise of a channel, times
 
 /// Streams of random numbers of one case.
@@ -99,8 +99,6 @@ class PracticeMaker {
     out_.data = EmptyCase(believed_, out_.records);
     const bool exact = out_.kind == "nothing" && Ordinal(number_) % 2 == 1;
     truth_.rig = exact ? believed_ : DrawRig(believed_, seed_);
-    // another machine of the type: its coils differ as the rig file says
-    if (!exact) truth_.rig.amplifier.unit += 1 + static_cast<double>(seed_ % kUnitNumbers);
     RequireLoopMargin(truth_.rig);
     surroundings_ = DrawSurroundings(believed_, seed_);
     out_.noise = surroundings_.noise_mode;
@@ -166,6 +164,9 @@ class PracticeMaker {
     truth_.rig.effects = all;
     if (laws_.size() > 1 && !model.Predict(truth_))
       throw InputError(out_.name + ": the laws together lose the rotor");
+    for (const EffectInstance& e : all)
+      if (IsWithinCoilErrors(e, believed_))
+        throw InputError(out_.name + ": what is hidden is no more than the spread of the coils");
     if (!laws_.empty()) RequireCalm(model);
   }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What differs from coil to coil of one rig although its parts have the same name: the gains of the current
 /// measurements and the instants at which the bridges switch (dead times that are not known exactly).
-#include "actuators/electronics/amplifier_parameters.h"
+#include "rig/rig_parameters.h"
 
 namespace ambrig {
 
@@ -11,7 +11,8 @@ struct Plant;
 bool CoilsDiffer(const AmplifierParameters& amplifier);
 
 /// Draws every coil's errors from current_gain_spread, edge_spread and `unit`: the same rig has the same ones in
-/// every run. On top of those that effects have given it.
-void DrawCoilSpread(const AmplifierParameters& amplifier, Plant* plant);
+/// every run. On top of those that effects have given it; a bearing whose coil errors are known draws none of them.
+/// `plant` was built from `rig`.
+void DrawCoilSpread(const RigParameters& rig, Plant* plant);
 
 }  // namespace ambrig

@@ -37,7 +37,7 @@ SampledDataLoop::SampledDataLoop(const RigParameters& given, const Scenario& s,
   M = nominal->periods_per_control();
   periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
   computing_ = static_cast<long long>(std::ceil(nominal->detection.computing_time / T - 1e-6));
-  if (options.coil_spread) DrawCoilSpread(rig.amplifier, &plant);
+  if (options.coil_spread) DrawCoilSpread(rig, &plant);
   plant.rotor.SetSpeed(scenario.speed, scenario.speed_free_from);
   std::size_t axes = 0;
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
@@ -63,6 +63,7 @@ void SampledDataLoop::AddBearing(std::size_t k, std::size_t first_axis) {
                    rig.amplifier.current_noise,
                    rig.amplifier.adc_jitter / h,
                    Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
+  for (int j = 0; j < p.coils(); ++j) b.late_edge[j] = b.plant->bridge[AsSize(j)].late_edge;
   for (const CurrentSensor& s : b.plant->current_sensor)
     if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
   bearings.push_back(b);
@@ -99,12 +100,10 @@ void SampledDataLoop::AtPeriodStart(long long n) {
 
 void SampledDataLoop::MoveEdges(long long n) {
   const double jitter = scenario.noise ? rig.amplifier.edge_jitter : 0;
-  if (jitter == 0 && (rig.amplifier.edge_spread == 0 || !options.coil_spread)) return;
+  if (jitter == 0) return;
   for (SampledBearing& b : bearings)
-    for (int j = 0; j < b.measurement.coils; ++j) {
-      b.late_edge[j] = b.plant->bridge[AsSize(j)].late_edge;
-      if (jitter > 0) b.late_edge[j] += jitter * noise_->Edge(b.index, j, n);
-    }
+    for (int j = 0; j < b.measurement.coils; ++j)
+      b.late_edge[j] = b.plant->bridge[AsSize(j)].late_edge + jitter * noise_->Edge(b.index, j, n);
 }
 
 CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double current) const {

@@ -209,6 +209,10 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
   EXPECT_THAT(Message("adc_samples_per_period = 18", "adc_samples_per_period = 17.5"),
               HasSubstr("amplifier.adc_samples_per_period = 17.5, allowed: an integer"));
   EXPECT_THAT(Message("sd = 4.0e-6", "sd = 5.0e-4"), HasSubstr("bearings.A.gap.sd"));
+  EXPECT_THAT(Message("z = -0.120", "z = -0.120\ncoil_errors = { current_gain = [0.01, 0.02] }"),
+              HasSubstr("bearings.A.coil_errors.current_gain: has 2 numbers, allowed: 8"));
+  EXPECT_THAT(Message("z = -0.120", "z = -0.120\ncoil_errors = { edges = [] }"),
+              HasSubstr("coil_errors.edges"));
 }
 
 TEST(RigFile, EveryTableRefusesKeysThatItDoesNotKnow) {

@@ -120,6 +120,37 @@ TEST_F(AdoptedRigTextTest, FittedEffectsAreChangedInTheirPlace) {
   EXPECT_NE(out.find("s = 2.0e-6 }  # kg m"), std::string::npos);
 }
 
+TEST_F(AdoptedRigTextTest, ErrorsOfCoilsBecomeALineOfTheirBearing) {
+  Hypothesis h = Hypothesis::Base(Read(text_));
+  for (FreeParameter& p : h.free) p.effect = 99;  // nothing else was fitted
+  BearingParameters& b = h.rig.bearings[1];
+  ASSERT_EQ(b.name, "B");
+  b.coil_errors.current_gain = {0.00123456, -0.002, 0, 0, 0, 0, 0, 0.004};
+  const std::string once = AdoptedRigText(text_, h, h.rig.effects);
+  EXPECT_THAT(NewLines(text_, once),
+              ::testing::ElementsAre(
+                  "coil_errors = { current_gain = [0.001235, -0.002, 0, 0, 0, 0, 0, 0.004] }"));
+  EXPECT_THAT(Read(once).Find("B")->coil_errors.current_gain,
+              ::testing::ElementsAre(0.001235, -0.002, 0, 0, 0, 0, 0, 0.004));
+  EXPECT_FALSE(Read(once).Find("A")->coil_errors.any());
+  h.rig.bearings[1].coil_errors = Read(once).Find("B")->coil_errors;
+  h.rig.bearings[1].coil_errors.edge.assign(8, 2e-8);
+  const RigParameters both = Read(AdoptedRigText(once, h, h.rig.effects));
+  EXPECT_EQ(both.Find("B")->coil_errors.edge, std::vector<double>(8, 2e-8));
+  EXPECT_EQ(both.Find("B")->coil_errors.current_gain,
+            Read(once).Find("B")->coil_errors.current_gain);
+}
+
+TEST_F(AdoptedRigTextTest, ListsOfErrorsThatSayTheSameStayAsWritten) {
+  const std::string header = "[bearings.B]\n";
+  std::string with = text_;
+  with.insert(with.find(header) + header.size(),
+              "coil_errors = { edge = [1.00e-8, 0,  # a comment\n  0, 0, 0, 0, 0, 0.0] }\n");
+  Hypothesis h = Hypothesis::Base(Read(with));
+  for (FreeParameter& p : h.free) p.effect = 99;
+  EXPECT_EQ(AdoptedRigText(with, h, h.rig.effects), with);
+}
+
 TEST_F(AdoptedRigTextTest, AnEffectThatIsDroppedGoesAndANewOneComesLast) {
   const Hypothesis h = Hypothesis::Base(Read(text_));
   EffectInstance added = h.rig.effects[1];

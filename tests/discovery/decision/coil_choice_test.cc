@@ -61,6 +61,23 @@ TEST_F(CoilChoice, WhatLooksLikeAllCoilsFarOffIsNotBelieved) {
   EXPECT_GT(choice.doubt, 2);
 }
 
+// What the coils can do alone, but with a parameter of the rig far beyond its tolerance, is not believed.
+TEST_F(CoilChoice, AParameterFarBeyondItsToleranceIsNotBelieved) {
+  FitResult fit = Leaving({1, -1, 0.5, 2, -1.5, 0.2, -0.7, 1.1});
+  FreeParameter gap;
+  gap.path = "bearings.A.gap";
+  gap.sd = gap.step = 1;
+  fit.hypothesis.free = {gap};
+  fit.jacobian = Eigen::MatrixXd::Zero(Rows(), 1);
+  for (Index row = kErrors * kRowsEach; row < Rows(); ++row) {
+    fit.residual[static_cast<std::size_t>(row)] = 6;
+    fit.jacobian(row, 0) = 6;  // one sd
+  }
+  EXPECT_EQ(Choose(fit).doubt, 1);
+  fit.jacobian /= 12;
+  EXPECT_GT(Choose(fit).doubt, 2);
+}
+
 // A free parameter of the rig that does the same has it where its tolerance allows it more easily.
 TEST_F(CoilChoice, ParametersOfTheRigStandBesideThem) {
   FitResult fit = Leaving({3, 3, 3, 3, 3, 3, 3, 3});

@@ -91,7 +91,7 @@ TEST(AmplifierErrors, TheCurrentLoopMakesUpForALateEdge) {
   rig.amplifier.edge_spread = 5e-7;
   const double T = 1 / rig.amplifier.switching_frequency;
   Plant plant = BuildPlant(TrueRig(rig));
-  DrawCoilSpread(rig.amplifier, &plant);
+  DrawCoilSpread(rig, &plant);
   const Scenario s = Undisturbed(rig, 0.05, false);
   const EngineOptions o;
   const Record with = SwitchingEngine(rig, s, o).Run().record;
@@ -104,6 +104,51 @@ TEST(AmplifierErrors, TheCurrentLoopMakesUpForALateEdge) {
   }
 }
 
+// What is known of a bearing's coils is not drawn; the other bearings draw what they drew.
+TEST(CoilSpread, IsNotDrawnWhereTheErrorsAreKnown) {
+  RigParameters rig = Imperfect();
+  Plant drawn = BuildPlant(TrueRig(rig));
+  DrawCoilSpread(rig, &drawn);
+  rig.bearings[0].coil_errors.current_gain = {0.01, 0, 0, 0, 0, 0, 0, -0.02};
+  Plant plant = BuildPlant(TrueRig(rig));
+  EXPECT_EQ(plant.bearings[0].current_sensor[0].gain, 1.01);
+  EXPECT_EQ(plant.bearings[0].current_sensor[7].gain, 0.98);
+  DrawCoilSpread(rig, &plant);
+  EXPECT_EQ(plant.bearings[0].current_sensor[7].gain, 0.98);
+  for (std::size_t j = 0; j < 8; ++j) {
+    EXPECT_EQ(plant.bearings[0].bridge[j].late_edge, drawn.bearings[0].bridge[j].late_edge);
+    EXPECT_EQ(plant.bearings[1].current_sensor[j].gain, drawn.bearings[1].current_sensor[j].gain);
+  }
+}
+
+// A run of the machine whose errors are written down is the run of the machine that drew them.
+TEST(CoilSpread, AsKnownErrorsGivesTheSameRun) {
+  const RigParameters rig = Imperfect();
+  Plant plant = BuildPlant(TrueRig(rig));
+  DrawCoilSpread(rig, &plant);
+  RigParameters known = rig;
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(rig.bearings[k].coils()); ++j) {
+      known.bearings[k].coil_errors.current_gain.push_back(
+          plant.bearings[k].current_sensor[j].gain - 1);
+      known.bearings[k].coil_errors.edge.push_back(plant.bearings[k].bridge[j].late_edge);
+    }
+  const Record a = Recorded(rig, false), b = Recorded(known, false, false);
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  for (std::size_t c = 0; c < a.channels.size(); ++c)
+    for (std::size_t k = 0; k < a.channels[c].samples.size(); ++k)
+      ASSERT_NEAR(a.channels[c].samples[k], b.channels[c].samples[k],
+                  1e-9 * (1 + std::abs(a.channels[c].samples[k])))
+          << a.channels[c].name;
+}
+
+// The controller is not told.
+TEST(CoilSpread, ThatIsKnownIsNothingOfTheNominalRig) {
+  RigParameters rig = Imperfect();
+  rig.bearings[0].coil_errors.edge.assign(8, 1e-8);
+  EXPECT_FALSE(NominalRig(rig)->bearings[0].coil_errors.any());
+}
+
 TEST(CoilSpread, HasItsStandardDeviationAndIsOfTheUnit) {
   const RigParameters base = Imperfect();
   const auto drawn = [&](double unit) {
@@ -111,7 +156,7 @@ TEST(CoilSpread, HasItsStandardDeviationAndIsOfTheUnit) {
     rig.amplifier.unit = unit;
     Plant plant = BuildPlant(TrueRig(rig));
     plant.bearings[0].current_sensor[2].gain = 0.9;  // an effect's
-    DrawCoilSpread(rig.amplifier, &plant);
+    DrawCoilSpread(rig, &plant);
     return plant;
   };
   double gains = 0, edges = 0, both = 0;
