@@ -8,6 +8,7 @@
 #include "app/pages/discovery_report.h"
 #include "app/pages/explain_tables.h"
 #include "app/pages/format.h"
+#include "app/pages/nuisance_tables.h"
 #include "effects/effect.h"
 
 namespace ambrig {
@@ -112,16 +113,7 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
                  "What was not seen: sizes below these (three of their own sd) leave no trace in "
                  "these records.");
   }
-  if (e.nuisances.empty()) return;
-  std::vector<std::vector<Cell>> rows;
-  for (const NuisanceFound& n : e.nuisances)
-    if (std::abs(n.value) > 2 * n.sd)
-      rows.push_back({n.record.empty() ? "all" : n.record, n.name,
-                      fmt::format("{} ± {}", FormatSi(n.value, n.unit), FormatSi(n.sd, n.unit))});
-  report.Table(
-      {"record", "what differs", "amount"}, rows,
-      "What differs from record to record or, in all of them, from the machine that the rig file "
-      "draws; fitted with everything else.");
+  AddNuisances(report, e.nuisances);
 }
 
 void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen) {
