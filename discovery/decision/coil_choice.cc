@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "core/math/linear_equations.h"
@@ -16,15 +17,43 @@ namespace {
 
 constexpr double kBelievable =
     4;  // sd: one of forty lies beyond by chance in four hundred machines
-constexpr std::size_t kLeftOut = 2;  // errors that may be left out: gain and edge of one coil
-constexpr double kSds = 3;           // of the mean square of the amounts about 1
-constexpr double kStep = 3;          // of the doubt
+constexpr std::size_t kLeastCoils = 4;  // that can have something in common
+constexpr std::size_t kLeftOut = 2;     // errors that may be left out: gain and edge of one coil
+constexpr double kSds = 3;              // of the mean square of the amounts about 1
+constexpr double kStep = 3;             // of the doubt
+
+/// The errors of one kind of the coils of one bearing, by number.
+using Group = std::vector<Index>;
+
+std::vector<Group> GroupsOf(const std::vector<NuisanceKind>& kinds) {
+  std::map<std::pair<std::string, std::string>, Group> groups;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    groups[{kinds[k].coil.substr(0, kinds[k].coil.find('.')), kinds[k].group}].push_back(
+        static_cast<Index>(k));
+  std::vector<Group> out;
+  for (auto& [name, group] : groups) out.push_back(std::move(group));
+  return out;
+}
+
+/// The mean of independent errors over its sd, that of the farthest from the median left out.
+double SharedPart(std::vector<double> amounts) {
+  std::sort(amounts.begin(), amounts.end());
+  const double median = amounts[amounts.size() / 2];
+  if (median - amounts.front() > amounts.back() - median)
+    amounts.erase(amounts.begin());
+  else
+    amounts.pop_back();
+  const double n = static_cast<double>(amounts.size());
+  return std::accumulate(amounts.begin(), amounts.end(), 0.0) / std::sqrt(n);
+}
 
 /// Least squares of the coils' errors (the first columns) and the free parameters of a fit, under their priors.
 class JointStep {
  public:
   JointStep(const CaseModel& model, const std::vector<NuisanceKind>& possible, const FitResult& now)
-      : coils_(static_cast<Index>(possible.size())), stay_(possible.size()) {
+      : coils_(static_cast<Index>(possible.size())),
+        stay_(possible.size()),
+        groups_(GroupsOf(possible)) {
     std::iota(stay_.begin(), stay_.end(), Index{0});
     const Index free = now.jacobian.cols(), all = coils_ + free,
                 rows = static_cast<Index>(model.size());
@@ -61,13 +90,18 @@ class JointStep {
     return out;
   }
 
-  /// Takes the step with this weight of a squared error, without errors of coils that are not believable in it.
+  /// Groups of which only what differs from their mean is taken for errors of coils.
+  const std::vector<Group>& centred() const { return centred_; }
+
+  /// Takes the step with this weight of a squared error, without errors of coils that are not believable in it, and without
+  /// what all coils of a bearing have in common where that is not.
   void Take(double weight) {
     for (;;) {
       const Eigen::VectorXd x =
           SolveSymmetric(Information(weight), weight * product_(stay_) + offset_(stay_));
       amounts_ = x.head(static_cast<Index>(coils().size()));
       shifts_ = x.tail(shift_before_.size()) + shift_before_;
+      if (CentreGroups()) continue;
       Index worst = 0;
       if (amounts_.size() == 0 || amounts_.cwiseAbs().maxCoeff(&worst) <= kBelievable) return;
       stay_.erase(stay_.begin() + worst);
@@ -97,6 +131,27 @@ class JointStep {
   }
 
  private:
+  /// Whether some group has in common what independent errors do not have; it is centred.
+  bool CentreGroups() {
+    const std::vector<Index> left = coils();
+    const std::size_t before = centred_.size();
+    std::erase_if(groups_, [&](const Group& group) {
+      std::vector<double> amounts;
+      for (std::size_t k = 0; k < left.size(); ++k)
+        if (std::find(group.begin(), group.end(), left[k]) != group.end())
+          amounts.push_back(amounts_(static_cast<Index>(k)));
+      if (amounts.size() < kLeastCoils || std::abs(SharedPart(amounts)) <= kBelievable)
+        return false;
+      Eigen::MatrixXd change = Eigen::MatrixXd::Identity(normal_.rows(), normal_.rows());
+      change(group, group).array() -= 1 / static_cast<double>(group.size());
+      normal_ = change * normal_ * change;
+      product_ = change * product_;
+      centred_.push_back(group);
+      return true;
+    });
+    return centred_.size() > before;
+  }
+
   /// Of the columns that take part, with their priors.
   Eigen::MatrixXd Information(double weight) const {
     Eigen::MatrixXd A = weight * normal_(stay_, stay_);
@@ -106,12 +161,29 @@ class JointStep {
 
   Index coils_;
   std::vector<Index> stay_;  // columns that take part, in order
+  std::vector<Group> groups_,
+      centred_;  // those that are left as they are; those of which the mean was taken off
   Eigen::MatrixXd normal_;
   Eigen::VectorXd product_, prior_, offset_;
   Eigen::VectorXd shift_before_,
       shifts_;  // of the free parameters from the drawing [sd], before the step and after it
   Eigen::VectorXd amounts_;
 };
+
+/// The columns of a group less their mean.
+void Centre(const Group& group, std::vector<NuisanceKind>& kinds) {
+  Eigen::VectorXd mean;
+  const auto whole = [&](Index k) {
+    const StretchColumn& column = kinds[static_cast<std::size_t>(k)].column;
+    return column.Segment(0, column.rows());
+  };
+  for (const Index k : group) {
+    const Eigen::VectorXd part = whole(k) / static_cast<double>(group.size());
+    mean = mean.size() == 0 ? part : Eigen::VectorXd(mean + part);
+  }
+  for (const Index k : group)
+    kinds[static_cast<std::size_t>(k)].column = StretchColumn(whole(k) - mean);
+}
 
 }  // namespace
 
@@ -126,7 +198,10 @@ CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<Nuisa
     JointStep step = start;
     step.Take(weight / choice.doubt);
     if (!step.IsBelievable() && weight / choice.doubt > least) continue;
-    for (const Index k : step.coils()) choice.chosen.push_back(static_cast<std::size_t>(k));
+    std::vector<NuisanceKind> kinds = possible;
+    for (const Group& group : step.centred()) Centre(group, kinds);
+    for (const Index k : step.coils())
+      choice.kinds.push_back(std::move(kinds[static_cast<std::size_t>(k)]));
     return choice;
   }
 }

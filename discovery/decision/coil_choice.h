@@ -7,15 +7,17 @@
 namespace ambrig {
 
 struct CoilErrorChoice {
-  std::vector<std::size_t> chosen;  // of the possible ones, rising
+  std::vector<NuisanceKind> kinds;  // those of the possible ones that are believed
   double doubt =
       1;  // by which the weight of a squared error is divided where their amounts are estimated
 };
 
 /// Those of `possible` (discovery/model/coil_errors.h, rows of `model`) whose amount beside the free parameters of `now` is
-/// one that a coil of this type can have: a larger one stands for something that is to be named. One linear step of
+/// one that a coil of this type can have: a larger one stands for something that is to be named. So does what all coils of a
+/// bearing have in common, if independent errors do not: their columns are then less their mean. One linear step of
 /// all of them together from `now`, whose sensitivities and residual hold no error of a coil. Without doubt where the
-/// amounts are then what the coils of a machine differ by, and the rig parameters within their tolerances; beside an effect that is missing and resembles them they are not,
+/// amounts are then what the coils of a machine differ by, and the rig parameters within their tolerances; beside an effect
+/// that is missing and resembles them they are not,
 /// and are doubted by as much as makes them so, at most by what `now` leaves.
 CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<NuisanceKind>& possible,
                                  const FitResult& now, double effective_sample_size);

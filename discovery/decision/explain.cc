@@ -14,6 +14,11 @@
 
 namespace ambrig {
 
+namespace {
+constexpr double kHalf =
+    0.5;  // of the error, before any effect is sought: what explains it differs from record to record
+}
+
 Explainer::Explainer(const Case& c, const ExplainOptions& options)
     : options_(options), full_(c), model_(c, ThinningTo(c, kSearchRows)), rig_(c.rig) {
   full_.stop = model_.stop = options.stop;
@@ -86,7 +91,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
   UseCoilErrors(as_filed, base);
   const FitResult bare = base;
-  if (TryNuisances(base, true)) {
+  if (TryNuisances(base, kHalf)) {
     if (OneEffectInstead(bare, base)) {
       base = bare;
     } else {
@@ -113,12 +118,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   Polish(now);
   DropSizeless(base, now);
   DropNuisances(base, now);
-  if (!ShapeExplainsAll() && TryNuisances(now, false)) {
-    if (options_.clocks && FindLateRows(now)) return;
-    if (!effect_instead_ || out_.adopted.empty()) base = FitNow(base.hypothesis, nullptr);
-    for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
-      if (!AdoptBest(now, round)) break;
-  }
+  if (!ShapeExplainsAll() && FindWhatDiffers(base, now)) return;
   if (FindWrongData(base, now)) return;
   out_.final_fit = now;
   out_.final_ratio_fit = now.ratio_fit;

@@ -66,9 +66,11 @@ class Explainer {
   /// Leaves out rows of unseen records where hypotheses that the fitted ones allow take different branches.
   /// Whether there were any.
   bool PassOverBursts(FitResult& now);
-  /// Zeros, clocks and inputs that differ from record to record, where the case declares none.
-  /// `alone`: before any effect is sought, when they explain half of what is left.
-  bool TryNuisances(FitResult& now, bool alone);
+  /// Zeros, clocks and inputs that differ from record to record, where the case declares none and they explain
+  /// this share of the error above the noise.
+  bool TryNuisances(FitResult& now, double least_share);
+  /// Those, and effects beside them, once effects were found. True: the search is to start again.
+  bool FindWhatDiffers(FitResult& base, FitResult& now);
   /// Whether one effect explains as much as the nuisances of every record together, which are many:
   /// they are then given up, and the search for effects starts from `bare`.
   bool OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances);
@@ -124,6 +126,7 @@ class Explainer {
   void NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking);
   /// The names that were open where an effect was judged best, and those nearly as good in another's place.
   std::vector<EffectInstance> RivalsOf(std::size_t adopted) const;
+  bool ComparedByShape(const EffectInstance& a, const EffectInstance& b) const;
   /// Values and sd of the ranked effects, as the report states them.
   void StateSizes();
   /// A last fit with fresh sensitivities of everything.
@@ -151,6 +154,7 @@ class Explainer {
   struct RankedName {
     EffectInstance effect;
     double probability = 0, ratio = 0;  // ratio_fit of its fit
+    bool by_shape = false;              // with the shape of its law free
   };
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
   std::vector<std::string>

@@ -96,9 +96,8 @@ void Explainer::AllowCoilErrors(const FitResult& now) {
     return std::any_of(out_.adopted.begin(), out_.adopted.end(),
                        [&](const EffectInstance& e) { return e.target == kind.coil; });
   });
-  const CoilErrorChoice choice =
-      ChooseCoilErrors(model_, possible, bare, out_.effective_sample_size);
-  for (const std::size_t k : choice.chosen) coil_kinds_.push_back(possible[k]);
+  CoilErrorChoice choice = ChooseCoilErrors(model_, possible, bare, out_.effective_sample_size);
+  coil_kinds_ = std::move(choice.kinds);
   coil_doubt_ = choice.doubt;
   coils_seen_at_ = now.ratio_fit;
   ApplyNuisances();

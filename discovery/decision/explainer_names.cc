@@ -41,6 +41,18 @@ std::vector<EffectInstance> Explainer::RivalsOf(std::size_t adopted) const {
   return out;
 }
 
+/// Whether a round compared both names with the shapes of their laws free: no law of the catalogue tells more than these.
+bool Explainer::ComparedByShape(const EffectInstance& a, const EffectInstance& b) const {
+  return std::any_of(rounds_.begin(), rounds_.end(), [&](const std::vector<RankedName>& round) {
+    const auto by_shape = [&](const EffectInstance& e) {
+      return std::any_of(round.begin(), round.end(), [&](const RankedName& n) {
+        return n.by_shape && IsSameName(n.effect, e);
+      });
+    };
+    return by_shape(a) && by_shape(b);
+  });
+}
+
 /// Each effect against its rivals beside the others; where a better one takes a place, once more.
 void Explainer::RejudgeNames(const FitResult& base, FitResult& now) {
   constexpr double kBetter = 2;  // of the score: 73 to 27 %
@@ -57,7 +69,8 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now) {
           RankBeside(model_, {base, now, out_.adopted}, k, rivals, out_.effective_sample_size);
       const RankedEffect& best = ranking[0];
       const std::size_t place = rig_.effects.size() + k;
-      if (!IsSameName(best.effect, out_.adopted[k]) && HasSize(best.fit, place) &&
+      if (!IsSameName(best.effect, out_.adopted[k]) &&
+          !ComparedByShape(best.effect, out_.adopted[k]) && HasSize(best.fit, place) &&
           (Believable(best.fit) || !Believable(now)) && Gain(now, best.fit) > kBetter) {
         out_.ladder.push_back({Named(best.effect) + " in place of " + Named(out_.adopted[k]),
                                best.fit.ratio_fit, best.fit.ratio_validate});

@@ -34,9 +34,9 @@ std::vector<NuisanceKind> Explainer::ChooseFrom(const std::vector<NuisanceKind>&
   return chosen;
 }
 
-/// Zeros, clocks and inputs that differ from record to record, where the case declares none.
-/// `alone`: before any effect is sought, when they explain half of what is left.
-bool Explainer::TryNuisances(FitResult& now, bool alone) {
+/// Zeros, clocks and inputs that differ from record to record, where the case declares none. They are kept where they
+/// explain this share of the error above the noise, and a linear step promises a good part of it.
+bool Explainer::TryNuisances(FitResult& now, double least_share) {
   const StageRatios before = RatiosOf(model_, now);
   if (full_.data().nuisances.any() || full_.nuisances.differ() || before.Answered() < 1.1)
     return false;
@@ -54,14 +54,14 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
     bank_ = bank;
     return false;
   };
-  const auto explains = [&](const StageRatios& after, double least) {
-    return ExplainedShare(before.Answered(), after.Answered()) >= least;
+  const auto explains = [&](const FitResult& after, double least) {
+    return ExplainedShare(before.Answered(), RatiosOf(model_, after).Answered()) >= least;
   };
   // what a linear step promises says whether a fit is worth it
   const FitResult promised = LinearlyRefitted(model_, now, out_.effective_sample_size);
-  if (!explains(RatiosOf(model_, promised), alone ? 0.3 : 0.2)) return give_up();
+  if (!explains(promised, 0.6 * least_share)) return give_up();
   FitResult with = FitNow(now.hypothesis, &promised.jacobian);
-  if (!explains(RatiosOf(model_, with), alone ? 0.5 : 0.3)) return give_up();
+  if (!explains(with, least_share)) return give_up();
   now = std::move(with);
   out_.ladder.push_back(
       {"zeros, clocks and inputs of each record", now.ratio_fit, now.ratio_validate});
@@ -98,6 +98,36 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
   }
   UseAgain(used);
   bank_.TakeOffNuisances(model_);
+  return false;
+}
+
+/// Beside the effects that were found: nuisances, and the effects that are seen once these are taken off. What explains little
+/// stays only if a further effect is then worth adopting: either may hide the other. True when the search
+/// is to start again with clocks set right.
+bool Explainer::FindWhatDiffers(FitResult& base, FitResult& now) {
+  constexpr double kPlain = 0.3, kLittle = 0.05;  // share of the error above the noise
+  const FitResult before = now;
+  const UsedNuisances used = Used();
+  const SignatureBank bank = bank_;
+  const std::size_t effects = out_.adopted.size(), rounds = rounds_.size();
+  if (!TryNuisances(now, effects > 0 ? kLittle : kPlain)) return false;
+  const bool plain = ExplainedShare(RatiosOf(model_, before).Answered(),
+                                    RatiosOf(model_, now).Answered()) >= kPlain;
+  if (plain && options_.clocks && FindLateRows(now)) return true;
+  const FitResult bare = base;
+  if (!effect_instead_ || out_.adopted.empty()) base = FitNow(base.hypothesis, nullptr);
+  std::vector<RankedEffect> second = out_.second_round;
+  for (int round = static_cast<int>(effects); round < options_.rounds; ++round)
+    if (!AdoptBest(now, round)) break;
+  if (plain) return false;
+  if (out_.adopted.size() > effects) return options_.clocks && FindLateRows(now);
+  UseAgain(used);
+  bank_ = bank;
+  now = before;
+  base = bare;
+  out_.second_round = std::move(second);
+  out_.ladder.pop_back();
+  rounds_.resize(rounds);
   return false;
 }
 

@@ -89,7 +89,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   (round == 0 ? out_.ranking : out_.second_round) = ranking;
   rounds_.emplace_back();
   for (const RankedEffect& r : ranking)
-    rounds_.back().push_back({r.effect, r.probability, r.RatioFit()});
+    rounds_.back().push_back({r.effect, r.probability, r.RatioFit(), r.shaped.has_value()});
   bool worth = false;
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;

@@ -52,7 +52,7 @@ bool RenewCoilErrors(CaseModel& thin, const Hypothesis& at, double independent) 
   here.iterations = 0;
   here.effective_sample_size = independent;
   const CoilErrorChoice choice = ChooseCoilErrors(thin, possible, Fit(thin, at, here), independent);
-  for (const std::size_t k : choice.chosen) kinds.push_back(possible[k]);
+  kinds.insert(kinds.end(), choice.kinds.begin(), choice.kinds.end());
   thin.nuisances.Use(thin, kinds, weight, weight / choice.doubt);
   return choice.doubt == 1;
 }

@@ -21,8 +21,8 @@ class CoilChoice : public ::testing::Test {
     for (Index k = 0; k < kErrors; ++k) {
       Eigen::VectorXd column = Eigen::VectorXd::Zero(Rows());
       column.segment(k * kRowsEach, kRowsEach).setConstant(3);
-      possible_.push_back(
-          {fmt::format("error {}", k), "coil-gain", "-", 0.005, StretchColumn(column), true});
+      possible_.push_back({fmt::format("error {}", k), "coil-gain", "-", 0.005,
+                           StretchColumn(column), true, fmt::format("A.coil{}", k + 1)});
     }
   }
   Index Rows() const { return static_cast<Index>(case_.model.size()); }
@@ -45,14 +45,32 @@ class CoilChoice : public ::testing::Test {
 
 TEST_F(CoilChoice, AmountsOfTheStatedSpreadAreTakenAsBesideNoise) {
   const CoilErrorChoice choice = Choose(Leaving({1, -1, 0.5, 2, -1.5, 0.2, -0.7, 1.1}));
-  EXPECT_EQ(choice.chosen.size(), 8u);
+  EXPECT_EQ(choice.kinds.size(), 8u);
   EXPECT_EQ(choice.doubt, 1);
 }
 
 TEST_F(CoilChoice, OneCoilFarBeyondTheSpreadIsLeftToBeNamed) {
   const CoilErrorChoice choice = Choose(Leaving({1, -1, 0.5, 6, -1.5, 0.2, -0.7, 1.1}));
-  EXPECT_EQ(choice.chosen, (std::vector<std::size_t>{0, 1, 2, 4, 5, 6, 7}));
+  ASSERT_EQ(choice.kinds.size(), 7u);
+  for (const NuisanceKind& kind : choice.kinds) EXPECT_NE(kind.coil, "A.coil4");
+  EXPECT_TRUE((choice.kinds[0].column.Segment(0, Rows()) - possible_[0].column.Segment(0, Rows()))
+                  .isZero(0));
   EXPECT_EQ(choice.doubt, 1);
+}
+
+// Eight errors of 2 sd each are believable, but not all of one sign: what they have in common is left.
+TEST_F(CoilChoice, WhatAllCoilsOfABearingShareIsLeftToBeNamed) {
+  const CoilErrorChoice apart = Choose(Leaving({2, -2, 2, 2, -2, -2, 2, -2}));
+  const CoilErrorChoice together = Choose(Leaving({2, 2.5, 2, 1.5, 2, 2, 1.5, 2.5}));
+  ASSERT_EQ(together.kinds.size(), 8u);
+  EXPECT_EQ(together.doubt, 1);
+  const Eigen::VectorXd column = possible_[2].column.Segment(0, Rows());
+  EXPECT_TRUE((apart.kinds[2].column.Segment(0, Rows()) - column).isZero(0));
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(Rows());
+  for (const NuisanceKind& kind : together.kinds) sum += kind.column.Segment(0, Rows());
+  EXPECT_LT(sum.norm(), 1e-12 * column.norm());
+  EXPECT_NEAR(together.kinds[2].column.Segment(0, Rows()).norm(),
+              std::sqrt(7.0 / 8) * column.norm(), 1e-12 * column.norm());
 }
 
 // All coils far off together are no errors of single coils: they are weighed so little that they take hardly any of it.
@@ -80,7 +98,7 @@ TEST_F(CoilChoice, AParameterFarBeyondItsToleranceIsNotBelieved) {
 
 // A free parameter of the rig that does the same has it where its tolerance allows it more easily.
 TEST_F(CoilChoice, ParametersOfTheRigStandBesideThem) {
-  FitResult fit = Leaving({3, 3, 3, 3, 3, 3, 3, 3});
+  FitResult fit = Leaving({3, -3, 3, 3, -3, -3, 3, -3});
   EXPECT_GT(Choose(fit).doubt, 1);
   FreeParameter gap;
   gap.path = "bearings.A.gap";
