@@ -54,6 +54,18 @@ Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& n
   return before;
 }
 
+/// The errors of all rows, which a search sees a part of. @throws InputError when the rotor is lost
+LadderStep StepTo(const std::string& added, const CaseModel& full, const Hypothesis& h) {
+  const auto predicted = full.Predict(h);
+  if (!predicted)
+    throw InputError(full.data().file + ": the model loses levitation with " +
+                     (added.empty() ? "the rig file" : added));
+  const std::vector<double> residual = Residual(full, *predicted);
+  const double fitted = Ratio(full, residual, Which::kFit),
+               unseen = Ratio(full, residual, Which::kValidate);
+  return {added, fitted, unseen > 0 ? unseen : fitted};
+}
+
 /// The last fit, beside what the coils of the machine differ by, which its rig then holds where that is without doubt.
 FitResult FitToTheEnd(CaseModel& model, const FitResult& found, double independent) {
   const bool known = RenewCoilErrors(model, found.hypothesis, independent);
@@ -84,9 +96,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   fit.effective_sample_size = a.before.effective_sample_size;
   progress(0.2, "rig parameters");
   const FitResult base = Fit(model, nominal, fit);
-  const double unseen = a.before.ratio_validate > 0 ? a.before.ratio_validate : a.before.ratio_fit;
-  a.ladder = {{"", a.before.ratio_fit, unseen},
-              {"parameters", base.ratio_fit, base.ratio_validate}};
+  a.ladder = {StepTo("", full, nominal), StepTo("parameters", full, base.hypothesis)};
   if (formula) {
     a.fit = FitToTheEnd(
         model, base,
@@ -105,7 +115,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     a.fit = FitToTheEnd(model, FitOn(model, base, a.fit.hypothesis, fit.effective_sample_size),
                         fit.effective_sample_size);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
-    a.ladder.push_back({NameAtTarget(e.name, e.target), a.fit.ratio_fit, a.fit.ratio_validate});
+    a.ladder.push_back(StepTo(NameAtTarget(e.name, e.target), full, a.fit.hypothesis));
   }
   for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k)
     a.effects.push_back(FittedEffect(a.fit, k));

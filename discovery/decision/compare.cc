@@ -65,13 +65,15 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   Comparison c;
   if (progress) progress(0.05, "noise floor");
   const std::vector<std::string> lost = model.LimitToHeld(h);
-  FindFloor(model, h);
+  c.unpredictable = FindFloor(model, h).unpredictable;
   std::vector<double> stated;
   for (const Target& t : model.targets()) stated.push_back(t.floor);
   c.noise = EstimateNoise(model, h);
   model.noise_model = c.noise;
   const NoiseFloor floor = FindFloor(model, h);
   c.data = InspectDataBelow(model, floor.clean, h, stated);
+  c.unpredictable.insert(c.unpredictable.end(), floor.unpredictable.begin(),
+                         floor.unpredictable.end());
   c.predicted = floor.clean;
   c.effective_sample_size = floor.effective_sample_size;
   c.residual = Residual(model, c.predicted);

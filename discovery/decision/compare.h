@@ -33,7 +33,8 @@ struct Comparison {
   double ratio = 0, ratio_fit = 0, ratio_validate = 0;
   std::vector<std::string> words;  // the worst places, named
   std::vector<double> predicted, residual;
-  double effective_sample_size = 0;  // independent numbers among the residuals
+  double effective_sample_size = 0;       // independent numbers among the residuals
+  std::vector<SampleSpan> unpredictable;  // left out of the model
 };
 
 Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks = true,

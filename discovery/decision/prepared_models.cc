@@ -61,6 +61,7 @@ Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nom
   Comparison before = Compare(full, nominal, false);
   thin.noise_model = full.noise_model;
   thin.LimitAs(full);
+  thin.LeaveOut(before.unpredictable);
   PassFloorsOn(full, thin);
   UseBranchesInBoth(full, thin, nominal);
   if (full.data().nuisances.any())

@@ -25,7 +25,7 @@ void UseNuisancesInBoth(CaseModel& full, CaseModel& thin,
 std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
                                           const Hypothesis& nominal);
 
-/// Gives both the noise, horizons and floors of the comparison with `nominal`, which is returned, the branches of its
+/// Gives both the noise, horizons, floors and rows left out of the comparison with `nominal`, which is returned, the branches of its
 /// tolerances, the nuisances that the case declares and the errors of the coils whose spread the rig file states.
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal);
 
