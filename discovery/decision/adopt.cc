@@ -98,9 +98,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   const FitResult base = Fit(model, nominal, fit);
   a.ladder = {StepTo("", full, nominal), StepTo("parameters", full, base.hypothesis)};
   if (formula) {
-    a.fit = FitToTheEnd(
-        model, base,
-        fit.effective_sample_size);  // it stands in the rig file and was fitted with the rig parameters
+    // it stands in the rig file and was fitted with the rig parameters
+    a.fit = FitToTheEnd(model, base, fit.effective_sample_size);
   } else {
     ScreenOptions what;
     what.effective_sample_size = fit.effective_sample_size;

@@ -15,8 +15,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kBelievable =
-    4;  // sd: one of forty lies beyond by chance in four hundred machines
+constexpr double kBelievable = 4;       // sd: of forty, one lies beyond in every 400th machine
 constexpr std::size_t kLeastCoils = 4;  // that can have something in common
 constexpr std::size_t kLeftOut = 2;     // errors that may be left out: gain and edge of one coil
 constexpr double kSds = 3;              // of the mean square of the amounts about 1
@@ -160,13 +159,13 @@ class JointStep {
   }
 
   Index coils_;
-  std::vector<Index> stay_;  // columns that take part, in order
-  std::vector<Group> groups_,
-      centred_;  // those that are left as they are; those of which the mean was taken off
+  std::vector<Index> stay_;     // columns that take part, in order
+  std::vector<Group> groups_;   // that are left as they are
+  std::vector<Group> centred_;  // of which the mean was taken off
   Eigen::MatrixXd normal_;
   Eigen::VectorXd product_, prior_, offset_;
-  Eigen::VectorXd shift_before_,
-      shifts_;  // of the free parameters from the drawing [sd], before the step and after it
+  // of the free parameters from the drawing [sd]: before the step, after it
+  Eigen::VectorXd shift_before_, shifts_;
   Eigen::VectorXd amounts_;
 };
 

@@ -15,9 +15,9 @@
 namespace ambrig {
 
 namespace {
-constexpr double kHalf =
-    0.5;  // of the error, before any effect is sought: what explains it differs from record to record
-}
+// share of the error that nuisances explain where they are kept before any effect is sought
+constexpr double kHalf = 0.5;
+}  // namespace
 
 Explainer::Explainer(const Case& c, const ExplainOptions& options)
     : options_(options), full_(c), model_(c, ThinningTo(c, kSearchRows)), rig_(c.rig) {
