@@ -18,7 +18,6 @@
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
-#include "discovery/model/coil_errors.h"
 #include "effects/effect.h"
 
 namespace ambrig {
@@ -84,7 +83,7 @@ void PrintNuisances(const std::vector<NuisanceFound>& nuisances) {
     if (std::abs(n.value) < kSeen * n.sd) continue;
     const std::string unit = n.unit == "-" ? "" : " " + n.unit;
     if (!n.coil.empty()) {
-      std::string& line = of_coils[n.group == kCoilGain ? "current gain" : "edge"];
+      std::string& line = of_coils[n.group];
       line += fmt::format("{}{} {:.2g}{}", line.empty() ? "" : ", ", n.coil, n.value, unit);
     } else {
       PrintWrapped(

@@ -15,10 +15,6 @@ namespace {
 
 bool IsSeen(const NuisanceFound& n) { return std::abs(n.value) > 2 * n.sd; }
 
-std::string Amount(const NuisanceFound& n) {
-  return fmt::format("{} ± {}", FormatSi(n.value, n.unit), FormatSi(n.sd, n.unit));
-}
-
 /// Errors of the coils, each row of one bearing and kind with the numbers of its coils.
 void AddCoilErrorTable(HtmlReport& report, const std::vector<NuisanceFound>& nuisances) {
   std::map<std::pair<std::string, std::string>, std::map<int, std::string>> rows;
@@ -27,9 +23,9 @@ void AddCoilErrorTable(HtmlReport& report, const std::vector<NuisanceFound>& nui
     const std::size_t at = n.coil.find(".coil");
     if (at == std::string::npos || !IsSeen(n)) continue;
     const int coil = std::stoi(n.coil.substr(at + 5));
-    const bool gain = n.group == kCoilGain;
-    rows[{n.coil.substr(0, at), gain ? "current gain" : "edge"}][coil] =
-        gain ? fmt::format("{:+.2f} %", 100 * n.value) : FormatSi(n.value, n.unit, 2);
+    rows[{n.coil.substr(0, at), n.group}][coil] = n.group == kCoilGain
+                                                      ? fmt::format("{:+.2f} %", 100 * n.value)
+                                                      : FormatSi(n.value, n.unit, 2);
     most = std::max(most, coil);
   }
   if (rows.empty()) return;
@@ -54,7 +50,9 @@ void AddCoilErrorTable(HtmlReport& report, const std::vector<NuisanceFound>& nui
 void AddNuisances(HtmlReport& report, const std::vector<NuisanceFound>& nuisances) {
   std::vector<std::vector<Cell>> rows;
   for (const NuisanceFound& n : nuisances)
-    if (n.coil.empty() && IsSeen(n)) rows.push_back({n.record, n.name, Amount(n)});
+    if (n.coil.empty() && IsSeen(n))
+      rows.push_back({n.record, n.name,
+                      fmt::format("{} ± {}", FormatSi(n.value, n.unit), FormatSi(n.sd, n.unit))});
   if (!rows.empty())
     report.Table({"record", "what differs", "amount"}, rows,
                  "What differs from record to record; fitted with everything else.");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
@@ -54,16 +55,12 @@ Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& n
   return before;
 }
 
-/// The errors of all rows, which a search sees a part of. @throws InputError when the rotor is lost
-LadderStep StepTo(const std::string& added, const CaseModel& full, const Hypothesis& h) {
-  const auto predicted = full.Predict(h);
-  if (!predicted)
-    throw InputError(full.data().file + ": the model loses levitation with " +
-                     (added.empty() ? "the rig file" : added));
+/// The errors of all rows, which a search sees a part of. @throws InputError when nothing was predicted: the rotor is lost
+LadderStep StepTo(const std::string& added, const CaseModel& full,
+                  const std::optional<std::vector<double>>& predicted) {
+  if (!predicted) throw InputError(full.data().file + ": the model loses levitation with " + added);
   const std::vector<double> residual = Residual(full, *predicted);
-  const double fitted = Ratio(full, residual, Which::kFit),
-               unseen = Ratio(full, residual, Which::kValidate);
-  return {added, fitted, unseen > 0 ? unseen : fitted};
+  return {added, Ratio(full, residual, Which::kFit), UnseenRatio(full, residual)};
 }
 
 /// The last fit, beside what the coils of the machine differ by, which its rig then holds where that is without doubt.
@@ -96,7 +93,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   fit.effective_sample_size = a.before.effective_sample_size;
   progress(0.2, "rig parameters");
   const FitResult base = Fit(model, nominal, fit);
-  a.ladder = {StepTo("", full, nominal), StepTo("parameters", full, base.hypothesis)};
+  a.ladder = {StepTo("", full, a.before.predicted),
+              StepTo("parameters", full, full.Predict(base.hypothesis))};
   if (formula) {
     // it stands in the rig file and was fitted with the rig parameters
     a.fit = FitToTheEnd(model, base, fit.effective_sample_size);
@@ -114,7 +112,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     a.fit = FitToTheEnd(model, FitOn(model, base, a.fit.hypothesis, fit.effective_sample_size),
                         fit.effective_sample_size);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
-    a.ladder.push_back(StepTo(NameAtTarget(e.name, e.target), full, a.fit.hypothesis));
+    a.ladder.push_back(
+        StepTo(NameAtTarget(e.name, e.target), full, full.Predict(a.fit.hypothesis)));
   }
   for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k)
     a.effects.push_back(FittedEffect(a.fit, k));

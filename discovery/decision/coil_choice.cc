@@ -70,15 +70,13 @@ class JointStep {
     product_ = gram.topRightCorner(all, 1);
     prior_ = Eigen::VectorXd::Ones(all);
     offset_ = Eigen::VectorXd::Zero(all);
-    shift_before_ = Eigen::VectorXd::Zero(free);
     for (Index k = 0; k < free; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const bool toleranced = now.hypothesis.free[i].sd > 0;
       prior_(coils_ + k) = toleranced ? 1 : 1e-9;
-      if (toleranced) shift_before_(k) = now.hypothesis.Coordinate(i);
+      if (toleranced) offset_(coils_ + k) = -now.hypothesis.Coordinate(i);
       stay_.push_back(coils_ + k);
     }
-    offset_.tail(free) = -shift_before_;
   }
 
   /// The errors of coils that are left, by number.
@@ -99,7 +97,8 @@ class JointStep {
       const Eigen::VectorXd x =
           SolveSymmetric(Information(weight), weight * product_(stay_) + offset_(stay_));
       amounts_ = x.head(static_cast<Index>(coils().size()));
-      shifts_ = x.tail(shift_before_.size()) + shift_before_;
+      const Index free = offset_.size() - coils_;
+      shifts_ = x.tail(free) - offset_.tail(free);
       if (CentreGroups()) continue;
       Index worst = 0;
       if (amounts_.size() == 0 || amounts_.cwiseAbs().maxCoeff(&worst) <= kBelievable) return;
@@ -163,23 +162,19 @@ class JointStep {
   std::vector<Group> groups_;   // that are left as they are
   std::vector<Group> centred_;  // of which the mean was taken off
   Eigen::MatrixXd normal_;
-  Eigen::VectorXd product_, prior_, offset_;
-  // of the free parameters from the drawing [sd]: before the step, after it
-  Eigen::VectorXd shift_before_, shifts_;
-  Eigen::VectorXd amounts_;
+  Eigen::VectorXd product_, prior_, offset_;  // offset_: from where a column stands to its drawing
+  Eigen::VectorXd amounts_, shifts_;  // after the step: of the coils, of the free parameters
 };
 
 /// The columns of a group less their mean.
 void Centre(const Group& group, std::vector<NuisanceKind>& kinds) {
-  Eigen::VectorXd mean;
   const auto whole = [&](Index k) {
     const StretchColumn& column = kinds[static_cast<std::size_t>(k)].column;
     return column.Segment(0, column.rows());
   };
-  for (const Index k : group) {
-    const Eigen::VectorXd part = whole(k) / static_cast<double>(group.size());
-    mean = mean.size() == 0 ? part : Eigen::VectorXd(mean + part);
-  }
+  Eigen::VectorXd mean =
+      Eigen::VectorXd::Zero(kinds[static_cast<std::size_t>(group[0])].column.rows());
+  for (const Index k : group) mean += whole(k) / static_cast<double>(group.size());
   for (const Index k : group)
     kinds[static_cast<std::size_t>(k)].column = StretchColumn(whole(k) - mean);
 }

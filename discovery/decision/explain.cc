@@ -33,7 +33,7 @@ Explanation Explainer::Run() {
   model_.LimitAs(full_);
   PrepareNoise(nominal);
   const FitResult as_filed = At(nominal);
-  out_.nominal_ratio_validate = Validated(as_filed.residual);
+  out_.nominal_ratio_validate = UnseenRatio(model_, as_filed.residual);
   out_.ladder.push_back({"", as_filed.ratio_fit, out_.nominal_ratio_validate});
   if (out_.data.empty())
     Search(nominal, as_filed);
@@ -103,12 +103,9 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   if ((options_.clocks && FindLateRows(base)) || FindInputs(base)) return;
   FitResult now = base;
   steps_before_effects_ = out_.ladder.size();
-  for (int round = 0; round < options_.rounds; ++round)
-    if (!AdoptBest(now, round)) break;
+  AdoptMore(now);
   TryPairs(base, now);
-  if (RenewFloor(as_filed, base, now))
-    for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
-      if (!AdoptBest(now, round)) break;
+  if (RenewFloor(as_filed, base, now)) AdoptMore(now);
   Backward(base, now);
   RejudgeNames(base, now);
   if (!out_.adopted.empty()) {
@@ -161,11 +158,6 @@ void Explainer::Progress(double fraction, const std::string& text) const {
   const long runs = full_.runs + model_.runs;
   options_.progress(fraction,
                     options_.tell_runs ? fmt::format("{} [{} simulations]", text, runs) : text);
-}
-
-double Explainer::Validated(const std::vector<double>& residual) const {
-  const double v = Ratio(model_, residual, Which::kValidate);
-  return v > 0 ? v : Ratio(model_, residual, Which::kFit);
 }
 
 FitOptions Explainer::Options(const Eigen::MatrixXd* jacobian) const {

@@ -1,6 +1,8 @@
 #pragma once
 /// The search behind Explain: its state and its steps. Steps that add, swap or remove effects stand in
 /// explainer_steps.cc, wrong data in explainer_data.cc, errors of the coils in explainer_coils.cc, the rest in explain.cc.
+#include <optional>
+
 #include "discovery/decision/explain.h"
 #include "discovery/decision/unit_errors.h"
 
@@ -66,9 +68,15 @@ class Explainer {
   /// Leaves out rows of unseen records where hypotheses that the fitted ones allow take different branches.
   /// Whether there were any.
   bool PassOverBursts(FitResult& now);
+  /// The search before nuisances were taken off.
+  struct BeforeNuisances {
+    UsedNuisances used;
+    SignatureBank bank;
+    FitResult fit;
+  };
   /// Zeros, clocks and inputs that differ from record to record, where the case declares none and they explain
-  /// this share of the error above the noise.
-  bool TryNuisances(FitResult& now, double least_share);
+  /// this share of the error above the noise: the search before them; nothing where they are not kept.
+  std::optional<BeforeNuisances> TryNuisances(FitResult& now, double least_share);
   /// Those, and effects beside them, once effects were found. True: the search is to start again.
   bool FindWhatDiffers(FitResult& base, FitResult& now);
   /// Whether one effect explains as much as the nuisances of every record together, which are many:
@@ -90,7 +98,6 @@ class Explainer {
   /// How large what was not found could still be.
   void FindHidden(const FitResult& now);
   void Progress(double fraction, const std::string& text) const;
-  double Validated(const std::vector<double>& residual) const;
   FitOptions Options(const Eigen::MatrixXd* jacobian) const;
   FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const;
   /// The point itself, with its sensitivities.
@@ -105,6 +112,7 @@ class Explainer {
                       const RankedEffect& than) const;
   /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
   bool AdoptBest(FitResult& now, int round);
+  void AdoptMore(FitResult& now);
   /// The model with the effect may hold a rotor that the rig file's loses: then all rows count.
   void Release(FitResult& now);
   /// A rig whose loop is nearly unstable with the hidden effect passes more noise than the rig

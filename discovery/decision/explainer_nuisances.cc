@@ -1,6 +1,7 @@
 // Steps of the search: what differs from record to record without being physics that the model lacks.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "discovery/data/input_size.h"
 #include "discovery/decision/conclusion.h"
@@ -36,23 +37,23 @@ std::vector<NuisanceKind> Explainer::ChooseFrom(const std::vector<NuisanceKind>&
 
 /// Zeros, clocks and inputs that differ from record to record, where the case declares none. They are kept where they
 /// explain this share of the error above the noise, and a linear step promises a good part of it.
-bool Explainer::TryNuisances(FitResult& now, double least_share) {
+std::optional<Explainer::BeforeNuisances> Explainer::TryNuisances(FitResult& now,
+                                                                  double least_share) {
   const StageRatios before = RatiosOf(model_, now);
   if (full_.data().nuisances.any() || full_.nuisances.differ() || before.Answered() < 1.1)
-    return false;
+    return {};
   Progress(0.05, "what may differ from record to record");
   const FitResult all = AllRows(now);
-  if (all.predicted.empty()) return false;
+  if (all.predicted.empty()) return {};
   const std::vector<NuisanceKind> chosen =
       ChooseFrom(NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), now);
-  if (chosen.empty()) return false;
-  const SignatureBank bank = bank_;
-  const UsedNuisances used = Used();
+  if (chosen.empty()) return {};
+  BeforeNuisances state = {Used(), bank_, {}};
   SetNuisances(chosen);
-  const auto give_up = [&] {
-    UseAgain(used);
-    bank_ = bank;
-    return false;
+  const auto give_up = [&]() -> std::optional<BeforeNuisances> {
+    UseAgain(state.used);
+    bank_ = std::move(state.bank);
+    return {};
   };
   const auto explains = [&](const FitResult& after, double least) {
     return ExplainedShare(before.Answered(), RatiosOf(model_, after).Answered()) >= least;
@@ -62,10 +63,10 @@ bool Explainer::TryNuisances(FitResult& now, double least_share) {
   if (!explains(promised, 0.6 * least_share)) return give_up();
   FitResult with = FitNow(now.hypothesis, &promised.jacobian);
   if (!explains(with, least_share)) return give_up();
-  now = std::move(with);
+  state.fit = std::exchange(now, std::move(with));
   out_.ladder.push_back(
       {"zeros, clocks and inputs of each record", now.ratio_fit, now.ratio_validate});
-  return true;
+  return state;
 }
 
 /// Whether one effect explains as much as the nuisances of every record together, which are many:
@@ -106,24 +107,21 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
 /// is to start again with clocks set right.
 bool Explainer::FindWhatDiffers(FitResult& base, FitResult& now) {
   constexpr double kPlain = 0.3, kLittle = 0.05;  // share of the error above the noise
-  const FitResult before = now;
-  const UsedNuisances used = Used();
-  const SignatureBank bank = bank_;
   const std::size_t effects = out_.adopted.size(), rounds = rounds_.size();
-  if (!TryNuisances(now, effects > 0 ? kLittle : kPlain)) return false;
-  const bool plain = ExplainedShare(RatiosOf(model_, before).Answered(),
+  std::optional<BeforeNuisances> before = TryNuisances(now, effects > 0 ? kLittle : kPlain);
+  if (!before) return false;
+  const bool plain = ExplainedShare(RatiosOf(model_, before->fit).Answered(),
                                     RatiosOf(model_, now).Answered()) >= kPlain;
   if (plain && options_.clocks && FindLateRows(now)) return true;
   const FitResult bare = base;
   if (!effect_instead_ || out_.adopted.empty()) base = FitNow(base.hypothesis, nullptr);
   std::vector<RankedEffect> second = out_.second_round;
-  for (int round = static_cast<int>(effects); round < options_.rounds; ++round)
-    if (!AdoptBest(now, round)) break;
+  AdoptMore(now);
   if (plain) return false;
   if (out_.adopted.size() > effects) return options_.clocks && FindLateRows(now);
-  UseAgain(used);
-  bank_ = bank;
-  now = before;
+  UseAgain(before->used);
+  bank_ = std::move(before->bank);
+  now = std::move(before->fit);
   base = bare;
   out_.second_round = std::move(second);
   out_.ladder.pop_back();

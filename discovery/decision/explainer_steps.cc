@@ -116,6 +116,12 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   return true;
 }
 
+/// Adds one effect after the other, as long as one is worth it.
+void Explainer::AdoptMore(FitResult& now) {
+  for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
+    if (!AdoptBest(now, round)) break;
+}
+
 /// The model with the effect may hold a rotor that the rig file's loses: then all rows count.
 void Explainer::Release(FitResult& now) {
   if (!full_.limited()) return;

@@ -46,17 +46,17 @@ void AddErrorsOfCoil(const AmplifierParameters& a, const std::string& bearing, i
                      std::vector<CoilError>& out) {
   const std::string target = CoilTarget(bearing, coil),
                     channel = fmt::format("{}.i{}", bearing, coil);
-  const auto add = [&](const char* what, const char* group, const char* unit, double sd,
-                       const char* effect, const char* parameter, double value) {
+  const auto add = [&](const char* group, const char* unit, double sd, const char* effect,
+                       const char* parameter, double value) {
     EffectInstance e = MakeInstance(EffectNamed(effect), target);
     e.Set(parameter, value);
-    out.push_back({fmt::format("{} of {}", what, channel), group, unit, sd, e});
+    out.push_back({fmt::format("{} of {}", group, channel), group, unit, sd, e});
   };
   if (a.current_gain_spread > 0)
-    add("current gain", kCoilGain, "-", a.current_gain_spread, "current-sensor-gain", "gain",
+    add(kCoilGain, "-", a.current_gain_spread, "current-sensor-gain", "gain",
         1 + a.current_gain_spread);
   if (a.edge_spread > 0 && VoltsOfEdge(a) > 0)
-    add("edge", kCoilEdge, "s", a.edge_spread, "amplifier-offset", "offset",
+    add(kCoilEdge, "s", a.edge_spread, "amplifier-offset", "offset",
         VoltsOfEdge(a) * a.edge_spread);
 }
 

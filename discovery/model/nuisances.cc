@@ -190,8 +190,8 @@ std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const 
         left(static_cast<Index>(k)) = there(static_cast<Index>(thin.sample(few.first + k)));
       column.Append(static_cast<Index>(few.first), std::move(left));
     }
-    out.push_back({kind.name, kind.group, kind.unit, kind.sd, std::move(column),
-                   kind.in_all_records, kind.coil});
+    out.push_back(kind);
+    out.back().column = std::move(column);
   }
   return out;
 }

@@ -69,6 +69,11 @@ double Ratio(const CaseModel& model, const std::vector<double>& residual, Which 
   return n > 0 ? std::sqrt(sum / n) : 0;
 }
 
+double UnseenRatio(const CaseModel& model, const std::vector<double>& residual) {
+  const double unseen = Ratio(model, residual, Which::kValidate);
+  return unseen > 0 ? unseen : Ratio(model, residual, Which::kFit);
+}
+
 std::vector<RecordError> RecordErrors(const CaseModel& model, const std::vector<double>& residual) {
   std::vector<RecordError> errors(model.data().records.size());
   for (std::size_t r = 0; r < errors.size(); ++r) errors[r].record = r;

@@ -26,6 +26,8 @@ double CountedRows(const CaseModel& model, const Target& t);
 
 /// Root mean square of a residual over the chosen records: 1 means nothing is left but noise.
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);
+/// Of the unseen records; where there are none, of the fitted ones.
+double UnseenRatio(const CaseModel& model, const std::vector<double>& residual);
 double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t);
 /// Error of one record: Σ r² and the number of the rows that count.
 struct RecordError {
