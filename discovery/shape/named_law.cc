@@ -115,4 +115,21 @@ double LargestDensity(const CaseModel& model, const Hypothesis& h, const std::st
   return hi;
 }
 
+ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInstance& named) {
+  ShapeReach reach;
+  if (DependsOnFlux(named.name)) reach.density = LargestDensity(model, h, named.target);
+  for (const CaseRecord& r : model.data().records) {
+    for (const double t : {0.0, 0.5, 1.0})
+      reach.speed =
+          std::max(reach.speed, std::abs(r.scenario.speed.Speed(t * r.scenario.duration)));
+    const Channel *x = r.data.Find(named.target + ".x"), *y = r.data.Find(named.target + ".y");
+    if (!x || !y || r.scenario.start == StartState::kClamped) continue;
+    for (std::size_t k = 0; k < x->samples.size(); ++k) {
+      const double at = std::hypot(x->samples[k], y->samples[k]);
+      if (std::isfinite(at)) reach.radius = std::max(reach.radius, at);
+    }
+  }
+  return reach;
+}
+
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 #pragma once
 /// The catalogue's law of a named effect, fitted: where a refinement starts.
 #include "discovery/decision/explain.h"
+#include "discovery/shape/shape.h"
 
 namespace ambrig {
 
@@ -18,5 +19,8 @@ NamedLaw FitNamedLaw(const CaseModel& model, const std::string& effect, const st
 
 /// Largest flux density of a bearing's poles over all records of the case, with the hypothesis. [T]
 double LargestDensity(const CaseModel& model, const Hypothesis& h, const std::string& bearing);
+
+/// How far the records drive what the law of `named` depends on.
+ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInstance& named);
 
 }  // namespace ambrig

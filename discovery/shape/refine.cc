@@ -29,23 +29,6 @@ double Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   return before.effective_sample_size;
 }
 
-ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInstance& named) {
-  ShapeReach reach;
-  if (DependsOnFlux(named.name)) reach.density = LargestDensity(model, h, named.target);
-  for (const CaseRecord& r : model.data().records) {
-    for (const double t : {0.0, 0.5, 1.0})
-      reach.speed =
-          std::max(reach.speed, std::abs(r.scenario.speed.Speed(t * r.scenario.duration)));
-    const Channel *x = r.data.Find(named.target + ".x"), *y = r.data.Find(named.target + ".y");
-    if (!x || !y || r.scenario.start == StartState::kClamped) continue;
-    for (std::size_t k = 0; k < x->samples.size(); ++k) {
-      const double at = std::hypot(x->samples[k], y->samples[k]);
-      if (std::isfinite(at)) reach.radius = std::max(reach.radius, at);
-    }
-  }
-  return reach;
-}
-
 /// All rows with the floors of the case: residual and the two ratios.
 std::vector<double> AllRows(const CaseModel& model, const Hypothesis& h, double* fit,
                             double* unseen) {
@@ -67,7 +50,7 @@ void DrawCurve(Refinement& out) {
       lo = std::min(lo, out.shape.knots[k]);
       hi = std::max(hi, out.shape.knots[k]);
     }
-  if (out.shape.knots.front() == 0) lo = 0;
+  if (!out.shape.everywhere && out.shape.knots.front() == 0) lo = 0;
   for (const double u : out.shape.u) {
     CurvePoint p;
     p.u = u;
@@ -75,7 +58,7 @@ void DrawCurve(Refinement& out) {
     p.sd = out.fit.CurveSd(out.shape, u);
     p.support = out.fit.Support(out.shape, u);
     p.named = out.shape.value(start, u);
-    p.visited = lo <= u && u <= hi;
+    p.visited = out.shape.everywhere || (lo <= u && u <= hi);
     out.curve.push_back(p);
   }
   std::size_t best = 0;

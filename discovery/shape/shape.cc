@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::array<const char*, 4> kIron = {"saturation", "iron-reluctance", "eddy-currents",
                                               "hysteresis"};
-constexpr std::array<const char*, 3> kMotion = {"side-pull", "cross-coupling", "windage"};
+constexpr std::array<const char*, 4> kMotion = {"side-pull", "cross-coupling", "windage",
+                                                "coupling-misalignment"};
 
 template <class Names>
 bool Holds(const Names& names, const std::string& name) {
@@ -35,11 +36,11 @@ std::string RefinableEffects() {
   return all;
 }
 
-bool IsRefinable(const std::string& effect) {
-  return Holds(kIron, effect) || Holds(kMotion, effect);
-}
+bool IsRefinable(const std::string& effect) { return IsIronLaw(effect) || IsMotionLaw(effect); }
 
 bool IsIronLaw(const std::string& effect) { return Holds(kIron, effect); }
+
+bool IsMotionLaw(const std::string& effect) { return Holds(kMotion, effect); }
 
 bool DependsOnFlux(const std::string& effect) {
   return IsIronLaw(effect) && effect != "eddy-currents";
@@ -47,7 +48,8 @@ bool DependsOnFlux(const std::string& effect) {
 
 Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach) {
   if (IsIronLaw(named.name)) return IronShape(named, rig, reach);
-  if (Holds(kMotion, named.name)) return MotionShape(named, reach);
+  if (named.name == "coupling-misalignment") return TurningShape(named);
+  if (IsMotionLaw(named.name)) return MotionShape(named, reach);
   throw InputError(
       fmt::format("{} has no curve to refine, allowed: {}", named.name, RefinableEffects()));
 }

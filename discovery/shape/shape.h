@@ -18,6 +18,7 @@ struct Shape {
   Eigen::VectorXd step;           // natural step of each size, its unit
   Eigen::MatrixXd roughness;      // rows of differences of the sizes (in steps) that are penalised
   std::vector<double> knots;  // u where each size acts; NaN: it belongs to no place of the curve
+  bool everywhere = false;    // every size acts at every u: no knots
   std::string u_name, u_unit, value_name, value_unit;
   std::vector<double> u;  // where the curve is given
   bool logarithmic = false;
@@ -39,6 +40,8 @@ std::string RefinableEffects();
 bool IsRefinable(const std::string& effect);
 /// Whether the effect is a law of the iron.
 bool IsIronLaw(const std::string& effect);
+/// Whether the effect is a force or a drag that depends on the motion or on the angle of the shaft.
+bool IsMotionLaw(const std::string& effect);
 /// Whether the shape depends on the flux density of a bearing.
 bool DependsOnFlux(const std::string& effect);
 
@@ -49,8 +52,9 @@ Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const Shape
 /// Second differences of n neighbours (or first ones).
 Eigen::MatrixXd Differences(Eigen::Index n, int order);
 
-// of iron_shapes.cc and motion_shapes.cc
+// of iron_shapes.cc, motion_shapes.cc and turning_shapes.cc
 Shape IronShape(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach);
 Shape MotionShape(const EffectInstance& named, const ShapeReach& reach);
+Shape TurningShape(const EffectInstance& named);
 
 }  // namespace ambrig

@@ -17,8 +17,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kLawIsExact = 1.1;  // ratio to the noise above which a law is asked for its shape
-constexpr double kNameContested = 0.02;  // probability of a second name of iron
-constexpr double kSomeOfError = 0.2;     // share of the error that a name of iron explains at least
+constexpr double kNameContested = 0.02;  // probability of a name that is asked
+constexpr double kSomeOfError = 0.2;     // share of the error that a name explains at least
 constexpr double kPlainGain = 20;        // of the score: what a free shape gains at least
 
 bool IsIron(const EffectInstance& e) { return IsIronLaw(e.name); }
@@ -30,9 +30,19 @@ class ShapeJudge {
       : s_(setting), now_(now), round_(round), ranking_(ranking) {}
 
   void Run() {
+    JudgeIron();
+    if (round_ == 0) JudgeMotion();
+    if (!judged_) return;
+    std::stable_sort(ranking_.begin(), ranking_.end(),
+                     [](const auto& a, const auto& b) { return a.score < b.score; });
+    SetProbabilities(now_, ranking_);
+  }
+
+ private:
+  void JudgeIron() {
     const auto best = std::find_if(ranking_.begin(), ranking_.end(),
                                    [&](const RankedEffect& r) { return IsIron(r.effect); });
-    if (best == ranking_.end() || !Asked(*best)) return;
+    if (best == ranking_.end() || !IronIsAsked(*best)) return;
     target_ = best->effect.target;
     // other laws than half-order diffusion are missed by the screening: tried in any case
     FitLaw("eddy-currents");
@@ -44,83 +54,104 @@ class ShapeJudge {
     fit_ranked("hysteresis");
     // both are magnetisation curves: the free one belongs to the nearer law
     fit_ranked("saturation", "iron-reluctance");
-    std::stable_sort(ranking_.begin(), ranking_.end(),
-                     [](const auto& a, const auto& b) { return a.score < b.score; });
-    SetProbabilities(now_, ranking_);
   }
 
- private:
+  /// Forces and drags that are plain enough, and whose law is not exact.
+  void JudgeMotion() {
+    for (RankedEffect& r : ranking_)
+      if (IsMotionLaw(r.effect.name) && IsPlain(r) && IsInexact(r.fit) && HasPossibleSign(r.effect))
+        TakeShapeOf(r);
+  }
+
   bool IsAt(const RankedEffect& r, const std::string& name) const {
     return r.effect.name == name && r.effect.target == target_;
   }
 
+  /// Whether a name is probable enough to be asked for its shape, and explains enough.
+  bool IsPlain(const RankedEffect& r) const {
+    return r.probability >= kNameContested &&
+           std::max(ExplainedShare(now_.ratio_fit, r.fit.ratio_fit),
+                    ExplainedShare(now_.ratio_validate, r.fit.ratio_validate)) >= kSomeOfError;
+  }
+
+  static bool IsInexact(const FitResult& fit) {
+    return std::max(fit.ratio_fit, fit.ratio_validate) > kLawIsExact;
+  }
+
+  /// A pull that holds the shaft back is another physics, in whatever shape.
+  static bool HasPossibleSign(const EffectInstance& e) {
+    const std::string& positive = EffectNamed(e.name).positive;
+    return positive.empty() || e.Value(positive) > 0;
+  }
+
   /// Whether the name of iron is plain enough, and contested by other iron; of the first effect also where its law is
   /// not exact: what that leaves may be the law's own.
-  bool Asked(const RankedEffect& best) const {
+  bool IronIsAsked(const RankedEffect& best) const {
     for (const EffectInstance& e : now_.hypothesis.rig.effects)
       if (IsIron(e) && e.target == best.effect.target) return false;  // two laws of one iron
-    if (best.probability < kNameContested ||
-        std::max(ExplainedShare(now_.ratio_fit, best.fit.ratio_fit),
-                 ExplainedShare(now_.ratio_validate, best.fit.ratio_validate)) < kSomeOfError)
-      return false;
-    if (round_ == 0 && std::max(best.fit.ratio_fit, best.fit.ratio_validate) > kLawIsExact)
-      return true;
+    if (!IsPlain(best)) return false;
+    if (round_ == 0 && IsInexact(best.fit)) return true;
     return std::any_of(ranking_.begin(), ranking_.end(), [&](const RankedEffect& r) {
       return &r != &best && IsIron(r.effect) && r.effect.target == best.effect.target &&
              r.probability > kNameContested;
     });
   }
 
-  ShapeReach Reach() {
-    if (density_ < 0) density_ = LargestDensity(s_.model, now_.hypothesis, target_);
-    ShapeReach reach;
-    reach.density = density_;
-    return reach;
+  /// That of the iron's flux density, which takes simulations, is sought once.
+  ShapeReach Reach(const EffectInstance& named) {
+    if (!DependsOnFlux(named.name)) return ReachOf(s_.model, now_.hypothesis, named);
+    if (!iron_) iron_ = ReachOf(s_.model, now_.hypothesis, named);
+    return *iron_;
   }
 
   void FitLaw(const std::string& name) {
     const auto known = std::find_if(ranking_.begin(), ranking_.end(),
                                     [&](const RankedEffect& r) { return IsAt(r, name); });
-    const bool ranked = known != ranking_.end();
-    s_.progress(0.97, "shape of " + NameAtTarget(name, target_));
-    const std::optional<ShapeFit> shaped =
-        FitFrom(ranked ? known->effect : AtUsualSize(EffectNamed(name), target_), !ranked);
-    if (!shaped) return;
-    const double score = Score(s_.model, shaped->fit, s_.effective_sample_size);
-    const StageRatios ratios = {shaped->fit.ratio_fit, shaped->fit.ratio_validate,
-                                WorstRecordRatio(s_.model, shaped->fit.residual)};
-    if (ranked)
-      Take(*known, ratios, score);
-    else if (score < ranking_[0].score - kPlainGain)
-      Join(name, ratios, score);
+    judged_ = true;
+    if (known != ranking_.end()) {
+      TakeShapeOf(*known);
+      return;
+    }
+    const std::optional<Shaped> shaped = FitFrom(AtUsualSize(EffectNamed(name), target_), true);
+    if (shaped && shaped->score < ranking_[0].score - kPlainGain) Join(name, *shaped);
   }
 
+  /// The error that the free shape of a ranked name leaves counts where it is plainly less.
+  void TakeShapeOf(RankedEffect& r) {
+    judged_ = true;
+    const std::optional<Shaped> shaped = FitFrom(r.effect, false);
+    if (!shaped || shaped->score > r.score - kPlainGain) return;
+    r.shaped = shaped->left;
+    r.score = shaped->score;
+  }
+
+  struct Shaped {
+    StageRatios left;
+    double score = 0;
+  };
+
   /// The shape that begins at `start`, or at no effect; nothing where the records do not move it.
-  std::optional<ShapeFit> FitFrom(const EffectInstance& start, bool at_none) {
+  std::optional<Shaped> FitFrom(const EffectInstance& start, bool at_none) {
+    s_.progress(0.97, "shape of " + Named(start));
     try {
-      Shape shape =
-          ShapeOf(start, now_.hypothesis.rig, DependsOnFlux(start.name) ? Reach() : ShapeReach());
+      Shape shape = ShapeOf(start, now_.hypothesis.rig, Reach(start));
       if (at_none)
         for (const std::size_t row : shape.rows) shape.effect.values[row] = 0;
       ShapeFitOptions options;
       options.effective_sample_size = s_.effective_sample_size;
       options.base_jacobian = &now_.jacobian;
       options.describe = false;
-      ShapeFit fit = FitShape(s_.model, now_.hypothesis, shape, options);
-      return fit.fit.converged ? std::optional(std::move(fit)) : std::nullopt;
+      const FitResult fit = FitShape(s_.model, now_.hypothesis, shape, options).fit;
+      if (!fit.converged) return {};
+      return Shaped{{fit.ratio_fit, fit.ratio_validate, WorstRecordRatio(s_.model, fit.residual)},
+                    Score(s_.model, fit, s_.effective_sample_size)};
     } catch (const InputError&) {
       return {};
     }
   }
 
-  static void Take(RankedEffect& r, const StageRatios& ratios, double score) {
-    if (score > r.score - kPlainGain) return;
-    r.shaped = ratios;
-    r.score = score;
-  }
-
   /// The catalogue's law of a name that was not ranked.
-  void Join(const std::string& name, const StageRatios& ratios, double score) {
+  void Join(const std::string& name, const Shaped& shaped) {
     ScreenOptions what;
     what.effective_sample_size = s_.effective_sample_size;
     what.effect = name;
@@ -131,8 +162,8 @@ class ShapeJudge {
     r.fit = FitOn(s_.model, now_, r.fit.hypothesis, s_.effective_sample_size);
     if (!r.fit.converged || !HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return;
     r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
-    r.shaped = ratios;
-    r.score = score;
+    r.shaped = shaped.left;
+    r.score = shaped.score;
     ranking_.push_back(std::move(r));
   }
 
@@ -140,8 +171,9 @@ class ShapeJudge {
   const FitResult& now_;
   int round_;
   std::vector<RankedEffect>& ranking_;
-  std::string target_;
-  double density_ = -1;  // [T]; below zero: not sought yet
+  std::string target_;              // of the iron
+  std::optional<ShapeReach> iron_;  // of the bearing target_
+  bool judged_ = false;
 };
 
 }  // namespace
