@@ -31,6 +31,7 @@ EffectDescription EddyCurrents() {
       {"cutoff", "Hz", kInfinity, 1, kInfinity, 300, 3e4,
        "frequency at which the half-order drop equals the gap's"},
       {"path", "m", 0, 0, 1e-3, 5e-6, 5e-5, "iron length over mu_r; 0: half order down to rest"}};
+  d.vanishing_order = 0.5;
   d.off_when_null = {"cutoff"};
   d.shows_in = "current ripple and steps (steep, then slow), force of fast excitation; not at rest";
   d.confused_with =

@@ -102,6 +102,8 @@ struct EffectDescription {
   bool switches_pair = false;  // its two switches act together, with equal or opposite sign
   std::string
       positive;  // parameter that this physics never makes negative, though a fit may; empty: none
+  // a switch whose null is infinite: the signature falls with this power of it
+  double vanishing_order = 1;
   std::string whole_periods;  // parameter [s] that acts in whole switching periods; empty: none
   void (*apply)(const EffectInstance&, Plant&) = nullptr;
   // before planes exist: adds modes to the shaft

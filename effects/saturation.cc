@@ -65,6 +65,7 @@ EffectDescription Saturation() {
   d.parameters = {{"knee", "T", kInfinity, 0.1, kInfinity, 0.3, 1.6,
                    "flux density in the gap at which the iron needs 1000 A/m"},
                   {"path", "m", 0.1, 0, 2, 0.03, 0.2, "length of the saturating iron per gap"}};
+  d.vanishing_order = 6;
   d.off_when_null = {"knee"};
   d.shows_in =
       "clamped ramps to high current: force and slope; harmonics of the force under large "

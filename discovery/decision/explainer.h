@@ -131,6 +131,9 @@ class Explainer {
   /// Names that were open while effects found later were missing: each effect against its rivals beside the
   /// others; a better one takes its place.
   void RejudgeNames(const FitResult& base, FitResult& now);
+  void JudgeOnlyName(const FitResult& base, FitResult& now);
+  /// What a round works with; its progress begins at `from` and takes `share` of the search.
+  RoundSetting SettingFrom(double from, double share);
   void NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking);
   /// The names that were open where an effect was judged best, and those nearly as good in another's place.
   std::vector<EffectInstance> RivalsOf(std::size_t adopted) const;

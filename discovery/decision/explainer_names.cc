@@ -4,6 +4,8 @@
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/law_scatter.h"
 #include "discovery/decision/rejudge.h"
+#include "discovery/search/candidate_fit.h"
+#include "discovery/shape/shape_names.h"
 
 namespace ambrig {
 
@@ -53,10 +55,31 @@ bool Explainer::ComparedByShape(const EffectInstance& a, const EffectInstance& b
   });
 }
 
+/// What is left of a pair was found by the pair's fit: no round has compared it with other names.
+void Explainer::JudgeOnlyName(const FitResult& base, FitResult& now) {
+  const EffectInstance only = out_.adopted[0];
+  if (!out_.ranking.empty() && IsSameName(out_.ranking[0].effect, only)) return;
+  std::vector<RankedEffect> ranking =
+      RankBeside(model_, {base, now, out_.adopted}, 0, RivalsOf(0), out_.effective_sample_size);
+  JudgeByShape(SettingFrom(0.92, 0.02), base, 0, ranking);
+  const RankedEffect& best = ranking[0];
+  if (!IsSameName(best.effect, only)) {
+    now = best.fit.jacobian.size() > 0
+              ? best.fit
+              : FitOn(model_, base, best.fit.hypothesis, out_.effective_sample_size);
+    out_.adopted[0] = FittedEffect(now, rig_.effects.size());
+    out_.ladder.push_back(
+        {Named(best.effect) + " in place of " + Named(only), now.ratio_fit, now.ratio_validate});
+  }
+  out_.shaped = best.shaped;
+  NoteNames(0, std::move(ranking));
+}
+
 /// Each effect against its rivals beside the others; where a better one takes a place, once more.
 void Explainer::RejudgeNames(const FitResult& base, FitResult& now) {
   constexpr double kBetter = 2;  // of the score: 73 to 27 %
   constexpr int kPasses = 2;
+  if (out_.adopted.size() == 1) JudgeOnlyName(base, now);
   if (out_.adopted.size() < 2) return;
   bool swapped = true;
   for (int pass = 0; swapped && pass < kPasses; ++pass) {

@@ -69,19 +69,22 @@ double Explainer::GainOfOthers(const FitResult& now, const std::vector<RankedEff
   return most;
 }
 
-/// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
-bool Explainer::AdoptBest(FitResult& now, int round) {
-  if (Finished(now)) return false;
-  // what nuisances explain that nobody declared leaves a detail as a law does
-  const bool differ = full_.nuisances.differ() && !full_.data().nuisances.any();
-  const double from = 0.08 + 0.3 * round;
-  const RoundSetting setting = {
+RoundSetting Explainer::SettingFrom(double from, double share) {
+  return {
       full_,
       model_,
       bank_,
       out_.effective_sample_size,
       options_.candidates,
-      [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }};
+      [this, from, share](double f, const std::string& text) { Progress(from + share * f, text); }};
+}
+
+/// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
+bool Explainer::AdoptBest(FitResult& now, int round) {
+  if (Finished(now)) return false;
+  // what nuisances explain that nobody declared leaves a detail as a law does
+  const bool differ = full_.nuisances.differ() && !full_.data().nuisances.any();
+  const RoundSetting setting = SettingFrom(0.08 + 0.3 * round, 0.3);
   EffectRound ranked = RankEffects(setting, now, round);
   JudgeByShape(setting, now, round, ranked.ranking);
   const std::vector<RankedEffect>& ranking = ranked.ranking;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "discovery/decision/decide.h"
 #include "discovery/decision/likelihood.h"
@@ -66,10 +64,8 @@ class Ranker {
     const ResidualPeaks peaks =
         predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
     out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
-    if (getenv("DBG")) { fprintf(stderr,"ROUND %d here %g fit %g val %g\n",round_,here_,now_.ratio_fit,now_.ratio_validate); for (size_t k=0;k<out_.screened.size()&&k<40;++k) { auto&c=out_.screened[k]; fprintf(stderr,"  %s score %g fit %g val %g prom %d\n",Named(c.effect).c_str(),c.score,c.ratio_fit,c.ratio_validate,(int)Promising(now_,c)); } }
     FitThePromising();
     Sort();
-    if (getenv("DBG")) for(auto&r:ranking_) fprintf(stderr,"  FITTED %s score %g fit %g val %g\n",Named(r.effect).c_str(),r.score,r.fit.ratio_fit,r.fit.ratio_validate);
     FitRivalsOfTheBest();
     Sort();
     ContinueTheNext();

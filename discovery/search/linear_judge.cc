@@ -50,9 +50,8 @@ std::vector<LinearJudge::Column> LinearJudge::ColumnsOf(const SignatureBank::Ent
       c.hi = (p.hi - p.null_value) / size;
       if (size < 0) std::swap(c.lo, c.hi);
     } else {
-      // A signature of finite size is believed near its own size, a resonance's over decades.
-      c.lo = g.scaling.empty() ? 0.5 : 0.01;
-      c.hi = g.scaling.empty() ? 2.0 : 30;
+      c.lo = g.least;
+      c.hi = g.most;
     }
     out.push_back(c);
   }

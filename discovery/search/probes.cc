@@ -52,6 +52,8 @@ constexpr double kSoughtDamping = 0.05;
 constexpr double kSoughtSpacing = 1.1;  // of neighbouring frequencies, about its width
 // of its usual top: large gains shift the loop's resonance, a small probe misses that
 constexpr double kSoughtGain = 0.4;
+// amounts for which the signature of a resonance is believed, and of the weakest probe of what vanishes at infinity
+constexpr double kLeastAmount = 0.01, kMostOfResonance = 30;
 
 /// It answers to its gains squared: both signs of their ratio, the size to be found.
 std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, std::size_t b,
@@ -61,6 +63,8 @@ std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, st
     ProbeGroup g;
     g.linear = false;
     g.scaling = {{a, 0.5}, {b, 0.5}};
+    g.least = kLeastAmount;
+    g.most = kMostOfResonance;
     g.probes.push_back(at);
     g.probes[0].values[a] = size;
     g.probes[0].values[b] = sign * size;
@@ -164,7 +168,14 @@ std::vector<ProbeGroup> FromInfinity(const EffectDescription& d, const ProbePlan
     for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
       ProbeGroup g;
       g.linear = false;
-      if (IsResonance(d)) g.scaling = {{k, -1.0}};  // a mass
+      if (IsResonance(d)) {
+        g.scaling = {{k, -1.0}};  // a mass
+        g.least = kLeastAmount;
+        g.most = kMostOfResonance;
+      } else if (value > 0.99 * p.typical_hi) {  // the effect may be as weak as it likes
+        g.scaling = {{k, -1 / d.vanishing_order}};
+        g.least = kLeastAmount;
+      }
       g.probes.push_back(form);
       g.probes[0].values[k] = value;
       groups.push_back(g);

@@ -13,8 +13,9 @@ struct ProbeGroup {
   std::vector<EffectInstance> probes;
   std::vector<std::size_t> rows;  // linear: the table row that each probe moved
   bool linear = true;
-  // not linear: rows that go with a power of the amount
+  // not linear: rows that go with a power of the amount, and the amounts for which the signature is believed
   std::vector<std::pair<std::size_t, double>> scaling;
+  double least = 0.5, most = 2;
   bool narrow = false;  // a resonance: off its frequency the signature tells little
 };
 
