@@ -130,7 +130,9 @@ class Explainer {
   void Backward(const FitResult& base, FitResult& now);
   /// Names that were open while effects found later were missing: each effect against its rivals beside the
   /// others; a better one takes its place.
-  void RejudgeNames(const FitResult& base, FitResult& now);
+  /// What no round has judged beside the fit as it is, or all names: what was taken off since tells them apart.
+  enum class Names { kNotJudged, kAllAnew };
+  void RejudgeNames(const FitResult& base, FitResult& now, Names which = Names::kNotJudged);
   void JudgeOnlyName(const FitResult& base, FitResult& now);
   /// What a round works with; its progress begins at `from` and takes `share` of the search.
   RoundSetting SettingFrom(double from, double share);

@@ -55,10 +55,10 @@ bool Explainer::ComparedByShape(const EffectInstance& a, const EffectInstance& b
   });
 }
 
-/// What is left of a pair was found by the pair's fit: no round has compared it with other names.
+/// The only effect against its rivals, and with the shapes of the laws.
 void Explainer::JudgeOnlyName(const FitResult& base, FitResult& now) {
   const EffectInstance only = out_.adopted[0];
-  if (!out_.ranking.empty() && IsSameName(out_.ranking[0].effect, only)) return;
+  Progress(0.92, "names in place of " + Named(only));
   std::vector<RankedEffect> ranking =
       RankBeside(model_, {base, now, out_.adopted}, 0, RivalsOf(0), out_.effective_sample_size);
   JudgeByShape(SettingFrom(0.92, 0.02), base, 0, ranking);
@@ -75,11 +75,14 @@ void Explainer::JudgeOnlyName(const FitResult& base, FitResult& now) {
   NoteNames(0, std::move(ranking));
 }
 
-/// Each effect against its rivals beside the others; where a better one takes a place, once more.
-void Explainer::RejudgeNames(const FitResult& base, FitResult& now) {
+/// Each effect against its rivals beside the others; where a better one takes a place, once more. What is left alone of
+/// a pair was found by the pair's fit: no round has compared it with other names.
+void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which) {
   constexpr double kBetter = 2;  // of the score: 73 to 27 %
   constexpr int kPasses = 2;
-  if (out_.adopted.size() == 1) JudgeOnlyName(base, now);
+  if (out_.adopted.size() == 1 && (which == Names::kAllAnew || out_.ranking.empty() ||
+                                   !IsSameName(out_.ranking[0].effect, out_.adopted[0])))
+    JudgeOnlyName(base, now);
   if (out_.adopted.size() < 2) return;
   bool swapped = true;
   for (int pass = 0; swapped && pass < kPasses; ++pass) {

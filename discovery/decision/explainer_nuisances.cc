@@ -30,7 +30,7 @@ std::vector<NuisanceKind> Explainer::ChooseFrom(const std::vector<NuisanceKind>&
   std::vector<NuisanceKind> chosen;
   for (const NuisanceKind& few :
        ChooseNuisances(model_, Thinned(kinds, full_, model_), now.residual,
-                       RowWeight(model_, 1, out_.effective_sample_size)))
+                       RowWeight(model_, 1, out_.effective_sample_size), !out_.adopted.empty()))
     chosen.push_back(*std::ranges::find(kinds, few.name, &NuisanceKind::name));
   return chosen;
 }
@@ -117,8 +117,12 @@ bool Explainer::FindWhatDiffers(FitResult& base, FitResult& now) {
   if (!effect_instead_ || out_.adopted.empty()) base = FitNow(base.hypothesis, nullptr);
   std::vector<RankedEffect> second = out_.second_round;
   AdoptMore(now);
-  if (plain) return false;
-  if (out_.adopted.size() > effects) return options_.clocks && FindLateRows(now);
+  if (plain || out_.adopted.size() > effects) {
+    if (!plain && options_.clocks && FindLateRows(now)) return true;
+    if (effects > 0) RejudgeNames(base, now, Names::kAllAnew);
+    Polish(now);
+    return false;
+  }
   UseAgain(before->used);
   bank_ = std::move(before->bank);
   now = std::move(before->fit);

@@ -15,6 +15,7 @@ constexpr double kVarying = 0.5;
 // Or the part of the squared error that one amount for all records leaves: an effect that is there too may
 // resemble the kind in every record.
 constexpr double kMuchVarying = 0.1;
+constexpr double kMostOfError = 0.5;  // of the squared error, which no further effect explains
 // Of the squared error that is left: least that a kind explains which only the logger sees. There are
 // many of these, and an effect elsewhere resembles one or the other a little.
 constexpr double kWorth = 0.05;
@@ -82,7 +83,8 @@ double SpreadOf(const std::vector<double>& value, const std::vector<double>& inf
 
 std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
                                           const std::vector<NuisanceKind>& possible,
-                                          const std::vector<double>& residual, double weight) {
+                                          const std::vector<double>& residual, double weight,
+                                          bool effects_found) {
   Eigen::VectorXd left = Eigen::Map<const Eigen::VectorXd>(
       residual.data(), static_cast<Eigen::Index>(residual.size()));
   std::vector<NuisanceKind> chosen;
@@ -99,6 +101,7 @@ std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
       const bool logger = kind.group == "logger-zero" || kind.group == "drift";
       if (over > (logger ? std::max(most, worth) : most) && g.varying > price &&
           (g.spread > kVarying || g.varying > kMuchVarying * weight * left.squaredNorm() ||
+           (effects_found && g.gain > kMostOfError * weight * left.squaredNorm()) ||
            (!logger && MostAreChosen(possible, chosen, kind.group))))
         most = over, best = &kind;
     }

@@ -7,10 +7,12 @@
 namespace ambrig {
 
 /// The kinds to use of those possible. `residual` of all rows, nothing taken off; `weight`: of a
-/// squared error over the floor, per row.
+/// squared error over the floor, per row. Where `effects_found` have left the residual, no further effect explains it,
+/// and a kind that explains most of it need not differ much.
 std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
                                           const std::vector<NuisanceKind>& possible,
-                                          const std::vector<double>& residual, double weight);
+                                          const std::vector<double>& residual, double weight,
+                                          bool effects_found = false);
 
 /// Variance of the amounts about their mean over their mean square, 0 to 1. Each counts with the variance of its own error,
 /// 1/`information`, and of the amounts together: one precise record says no more of the others than a rough one.
