@@ -87,12 +87,13 @@ void SayShape(const FitResult& last, Explanation& out) {
       out.remainder.kind == "none")
     return;
   out.remainder.kind = "law-variation";
+  const bool several = out.adopted.size() > 1;
   const char* advice = out.RefineFollows() ? ": ambrig refine writes it" : "";
   out.remainder.text = fmt::format(
-      "{:.2f} times the noise stays with the catalogue's law; with its shape free {:.2f} (fitted "
-      "records) and {:.2f} "
-      "(unseen){}",
-      out.closure.floors_after, s.fit, s.validate, advice);
+      "{:.2f} times the noise stays with the catalogue's law{}; with {} shape free {:.2f} (fitted "
+      "records) and {:.2f} (unseen){}",
+      out.closure.floors_after, several ? "s" : "", several ? "one" : "its", s.fit, s.validate,
+      advice);
 }
 
 /// The members of the set when no effect is named: the verdict itself and the best candidate.

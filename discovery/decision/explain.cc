@@ -106,6 +106,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   AdoptMore(now);
   TryPairs(base, now);
   if (RenewFloor(as_filed, base, now)) AdoptMore(now);
+  while (AdoptBesideShape(now)) continue;
   Backward(base, now);
   RejudgeNames(base, now);
   if (!out_.adopted.empty()) {

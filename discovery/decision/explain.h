@@ -67,8 +67,9 @@ struct Explanation {
   /// Whether `ambrig refine` of the first effect leaves what its free shape does: it fits without what was found to
   /// differ from record to record.
   bool RefineFollows() const {
-    return shaped && std::all_of(nuisances.begin(), nuisances.end(),
-                                 [](const NuisanceFound& n) { return n.record.empty(); });
+    return shaped && adopted.size() == 1 &&
+           std::all_of(nuisances.begin(), nuisances.end(),
+                       [](const NuisanceFound& n) { return n.record.empty(); });
   }
 };
 

@@ -126,6 +126,11 @@ class Explainer {
   void TryPairs(const FitResult& base, FitResult& now);
   /// The steps one by one have fitted this pair, or one with more in it.
   bool AlreadyTried(const CandidatePair& p) const;
+  /// The effects that the details of another one's law hide (explainer_shapes.cc).
+  bool AdoptBesideShape(FitResult& now);
+  std::optional<FitResult> BesideFreeShape(const FitResult& now) const;
+  /// Whether it was found so: beside the plain laws it explains less than it does.
+  bool IsBesideShape(const EffectInstance& e) const;
   /// An effect that its successors made needless goes again.
   void Backward(const FitResult& base, FitResult& now);
   /// Names that were open while effects found later were missing: each effect against its rivals beside the
@@ -172,6 +177,8 @@ class Explainer {
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
   std::vector<std::string>
       of_own_channels_;  // effects adopted for what they explain where they act
+  std::vector<std::string>
+      beside_shape_;  // effects found beside the free shape of another one's law
   RecordsSetRight set_right_;
   std::size_t steps_before_effects_ = 0;  // of the ladder
   bool floor_renewed_ = false;

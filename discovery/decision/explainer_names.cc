@@ -88,6 +88,7 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which)
   for (int pass = 0; swapped && pass < kPasses; ++pass) {
     swapped = false;
     for (std::size_t k = 0; k < out_.adopted.size(); ++k) {
+      if (IsBesideShape(out_.adopted[k])) continue;  // its own round tells more than plain laws do
       const std::vector<EffectInstance> rivals = RivalsOf(k);
       if (rivals.empty() && k > 0) continue;
       Progress(0.92, "names beside " + Named(out_.adopted[k == 0 ? 1 : 0]));

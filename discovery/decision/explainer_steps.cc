@@ -226,6 +226,10 @@ bool Explainer::AlreadyTried(const CandidatePair& p) const {
 void Explainer::Backward(const FitResult& base, FitResult& now) {
   if (out_.adopted.size() < 2) return;
   for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
+    if (IsBesideShape(out_.adopted[drop])) {
+      ++drop;
+      continue;
+    }
     Hypothesis h = base.hypothesis;
     for (std::size_t k = 0; k < out_.adopted.size(); ++k)
       if (k != drop) h.AddEffect(out_.adopted[k]);

@@ -112,6 +112,18 @@ TEST_F(NuisanceChoiceTest, AmountsOfOneSignAreLeftToTheSearch) {
         << size;
 }
 
+// Beside the effects that were found nothing else is left to explain them.
+TEST_F(NuisanceChoiceTest, BesideEffectsAmountsOfOneSignThatExplainMostAreChosen) {
+  std::vector<double> left = Offsets({9, 7, 14, 12});
+  EXPECT_EQ(ChooseNuisances(case_.model, {Zero(0)}, left, kWeight, true).size(), 1u);
+  EXPECT_TRUE(
+      ChooseNuisances(case_.model, {Zero(0)}, Offsets({6, 6, 6, 6}), kWeight, true).empty());
+  for (const Target& t : case_.model.targets())  // a small part of the error
+    if (t.channel == 1)
+      for (std::size_t k = t.first; k < t.first + t.count; ++k) left[k] = k % 2 == 0 ? 40 : -40;
+  EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, left, kWeight, true).empty());
+}
+
 // What moved the zeros of most sensors moves the others', too: these need to differ, but may have a mean of their own.
 TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
   std::vector<double> left = Offsets({6, -6, 5, -4});  // in A.x

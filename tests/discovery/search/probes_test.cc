@@ -43,6 +43,26 @@ TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
   }
 }
 
+// Eddy currents of a tenth of the smallest usual size would otherwise promise to make everything worse (practice case 4
+// of seed 17).
+TEST(Probes, TheWeakestOfWhatVanishesAtInfinityMayBeScaledToNothing) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  const EffectDescription& d = EffectNamed("eddy-currents");
+  for (const ProbeGroup& g : ProbesOf(d, "A", model, {})) {
+    const bool weakest = g.probes[0].Value("cutoff") > 0.9 * d.parameters[0].typical_hi;
+    EXPECT_EQ(g.least, weakest ? 0.01 : 0.5);
+    EXPECT_EQ(g.most, 2);
+    ASSERT_EQ(g.scaling.size(), weakest ? 1U : 0U);
+    if (weakest) {
+      EXPECT_EQ(g.scaling[0].second,
+                -2);  // of half order: a tenth of the size at a hundred times the cutoff
+    }
+  }
+}
+
 // Fringing flux that pulls looks like a larger pole area, one that does not like nothing else: with the first alone an
 // effect of 8.6 floors, of which the rig parameters had taken up most, was not among the candidates (practice case 12 of seed 5).
 TEST(Probes, AShapeThatMayBeLeftOutIsTriedWithoutWhateverSwitchesItsLaw) {

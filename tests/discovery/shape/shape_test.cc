@@ -133,6 +133,42 @@ TEST(Shape, PullFormulaSaysWhatTheCurveSays) {
   EXPECT_NEAR(forces.Q[1], -f * 0.8, 1e-9 * f);
 }
 
+RotorForces ForcesOf(const EffectInstance& e, double theta) {
+  RigParameters rig = ReferenceRig();
+  rig.effects = {e};
+  const Plant plant = BuildPlant(TrueRig(rig));
+  MotionState m{};
+  m.theta = theta;
+  RotorForces forces;
+  forces.Q = {};
+  for (const auto& term : plant.rotor.terms) term->Add(m, forces);
+  return forces;
+}
+
+// It starts at the catalogue's force, and other orders turn as the curve says: forward ones with the shaft, backward ones
+// against it.
+TEST(Shape, TheSeriesOfACouplingIsThatOfTheCurve) {
+  const EffectInstance law = Named("coupling-misalignment", {{"c", 3}, {"s", -1}});
+  Shape s = ShapeOf(law, ReferenceRig(), {});
+  const auto row = [&](const std::string& name) {
+    return static_cast<std::size_t>(
+        std::ranges::find(s.effect.table, name, &EffectParameter::name) - s.effect.table.begin());
+  };
+  for (const double theta : {0.0, 0.4, 2.5}) {
+    const RotorForces a = ForcesOf(law, theta), b = ForcesOf(s.effect, theta);
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(a.Q[k], b.Q[k], 1e-12);
+    EXPECT_NEAR(s.value(s.Sizes(), theta), a.Q[0], 1e-12);
+  }
+  for (double& v : s.effect.values) v = 0;
+  s.effect.values[row("c3")] = 2;
+  s.effect.values[row("s1b")] = 5;
+  const double theta = 0.7;
+  const RotorForces f = ForcesOf(s.effect, theta);
+  EXPECT_NEAR(f.Q[0], 2 * std::cos(3 * theta) + 5 * std::sin(theta), 1e-12);
+  EXPECT_NEAR(f.Q[1], 2 * std::sin(3 * theta) + 5 * std::cos(theta), 1e-12);
+  EXPECT_NEAR(s.value(s.Sizes(), theta), f.Q[0], 1e-12);
+}
+
 TEST(Shape, RefusesWhatHasNoCurve) {
   EXPECT_THROW(ShapeOf(Named("loop-delay", {}, "rig"), ReferenceRig(), {}), InputError);
   EXPECT_THROW(ShapeOf(Named("saturation", {{"knee", 0.5}}), ReferenceRig(), {}), InputError);
