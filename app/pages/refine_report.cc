@@ -98,6 +98,9 @@ void AddSizes(HtmlReport& report, const Refinement& r) {
 
 std::string SupportText(const Refinement& r) {
   if (r.supported_hi <= r.supported_lo) return "supported nowhere by these records";
+  const std::vector<double>& u = r.shape.u;
+  if (!u.empty() && r.supported_lo <= u.front() && r.supported_hi >= u.back())
+    return "supported at every " + r.shape.u_name;
   return fmt::format("supported for {} = {} to {} only", r.shape.u_name,
                      FormatSi(r.supported_lo, r.shape.u_unit, 3),
                      FormatSi(r.supported_hi, r.shape.u_unit, 3));

@@ -62,7 +62,10 @@ void Explainer::JudgeOnlyName(const FitResult& base, FitResult& now) {
   std::vector<RankedEffect> ranking =
       RankBeside(model_, {base, now, out_.adopted}, 0, RivalsOf(0), out_.effective_sample_size);
   JudgeByShape(SettingFrom(0.92, 0.02), base, 0, ranking);
-  const RankedEffect& best = ranking[0];
+  // a name whose effect has no size is none
+  const RankedEffect& best = *std::ranges::find_if(ranking, [&](const RankedEffect& r) {
+    return IsSameName(r.effect, only) || HasSize(r.fit, rig_.effects.size());
+  });
   if (!IsSameName(best.effect, only)) {
     now = best.fit.jacobian.size() > 0
               ? best.fit
@@ -83,7 +86,10 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which)
   if (out_.adopted.size() == 1 && (which == Names::kAllAnew || out_.ranking.empty() ||
                                    !IsSameName(out_.ranking[0].effect, out_.adopted[0])))
     JudgeOnlyName(base, now);
-  if (out_.adopted.size() < 2) return;
+  if (out_.adopted.size() < 2) {
+    out_.judged_beside.clear();
+    return;
+  }
   bool swapped = true;
   for (int pass = 0; swapped && pass < kPasses; ++pass) {
     swapped = false;
@@ -109,6 +115,7 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which)
       NoteNames(k, std::move(ranking));
     }
   }
+  out_.judged_beside.clear();
   for (std::size_t k = 1; k < out_.adopted.size(); ++k)
     out_.judged_beside.push_back(Named(out_.adopted[k]));
 }

@@ -102,6 +102,16 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
   return false;
 }
 
+/// What was found before the nuisances were may be needless beside them, and have another name.
+void Explainer::SettleBesideNuisances(const FitResult& base, FitResult& now, bool found_before) {
+  const std::size_t effects = out_.adopted.size();
+  if (found_before) Backward(base, now);
+  if (out_.adopted.size() < effects) AdoptMore(now);
+  if (found_before) RejudgeNames(base, now, Names::kAllAnew);
+  Polish(now);
+  DropSizeless(base, now);
+}
+
 /// Beside the effects that were found: nuisances, and the effects that are seen once these are taken off. What explains little
 /// stays only if a further effect is then worth adopting: either may hide the other. True when the search
 /// is to start again with clocks set right.
@@ -119,8 +129,7 @@ bool Explainer::FindWhatDiffers(FitResult& base, FitResult& now) {
   AdoptMore(now);
   if (plain || out_.adopted.size() > effects) {
     if (!plain && options_.clocks && FindLateRows(now)) return true;
-    if (effects > 0) RejudgeNames(base, now, Names::kAllAnew);
-    Polish(now);
+    SettleBesideNuisances(base, now, effects > 0);
     return false;
   }
   UseAgain(before->used);

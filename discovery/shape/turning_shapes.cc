@@ -48,10 +48,11 @@ std::pair<std::string, std::string> TurningFormulas() {
   for (const TurningOrder& o : TurningOrders()) {
     const std::string c = OrderAmplitude(o, "c", 0).name, s = OrderAmplitude(o, "s", 0).name;
     const char *plus = o.forward ? "+" : "-", *minus = o.forward ? "-" : "+";
-    x += fmt::format("{0}{1}*cos({3}*theta) {4} {2}*sin({3}*theta)", x.empty() ? "" : " + ", c, s,
-                     o.order, minus);
-    y += fmt::format("{0}{1}*sin({3}*theta) + {2}*cos({3}*theta)",
-                     y.empty() ? "" : fmt::format(" {} ", plus), c, s, o.order);
+    const std::string turned = o.order == 1 ? "theta" : fmt::format("{}*theta", o.order);
+    x += fmt::format("{0}{1}*cos({3}) {4} {2}*sin({3})", x.empty() ? "" : " + ", c, s, turned,
+                     minus);
+    y += fmt::format("{0}{1}*sin({3}) + {2}*cos({3})", y.empty() ? "" : fmt::format(" {} ", plus),
+                     c, s, turned);
   }
   return {x, y};
 }

@@ -19,6 +19,9 @@ TEST(SupportText, IsARangeOrNowhere) {
   EXPECT_EQ(SupportText(Supported(0.1, 0.85)),
             "supported for flux density of the pole = 100\u00a0mT to 850\u00a0mT only");
   EXPECT_EQ(SupportText(Supported(0, 0)), "supported nowhere by these records");
+  Refinement whole = Supported(0, 1.2);
+  whole.shape.u = {0, 0.6, 1.2};
+  EXPECT_EQ(SupportText(whole), "supported at every flux density of the pole");
 }
 
 }  // namespace

@@ -51,5 +51,8 @@ TEST_F(HardCases, CommandsThatAreLargerInEveryRecord) { EXPECT_TRUE(ScoreOf(16, 
 // Eddy currents of a tenth of the smallest usual size, in a closed ring, found in a pair with an effect that then goes.
 TEST_F(HardCases, WhatAPairLeavesAlone) { EXPECT_TRUE(ScoreOf(17, 4).right()); }
 
+// A sensor gain stood in for zeros and commands that nobody declared; beside these it is needless.
+TEST_F(HardCases, WhatNuisancesMakeNeedless) { EXPECT_TRUE(ScoreOf(17, 11).right()); }
+
 }  // namespace
 }  // namespace ambrig

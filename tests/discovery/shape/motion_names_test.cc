@@ -11,16 +11,16 @@
 namespace ambrig {
 namespace {
 
-constexpr double kReadingNoise = 2e-8, kMotionN = 2000;  // [m]
+constexpr double kReadingNoise = 1e-7, kMotionN = 2000;  // [m]
 
-/// The turning rotor pushed at bearing A by three tones in each axis; its readings there count.
+/// The rotor, running up, pushed at bearing A by three tones in each axis; its readings there count.
 Case PushedCase() {
   RigParameters rig = ReferenceRig();
   rig.tolerances.clear();
   std::string text =
       "name = \"pushed\"\nrig = \"rig.toml\"\nduration = 0.3\nrecord_rate = 12500.0\nseed = 1\n"
       "noise = false\nfault_tolerance = false\n[start]\nstate = \"levitated\"\n[speed]\n"
-      "profile = [[0.0, 200.0], [0.3, 200.0]]\n";
+      "profile = [[0.0, 150.0], [0.3, 300.0]]\n";
   for (const char* axis : {"x", "y"})
     text += std::string("[[excitation]]\ntarget = \"A.") + axis +
             "\"\nport = \"force\"\nkind = \"multisine\"\nstart = 0.02\nstop = 0.3\nfrequencies = " +
@@ -57,7 +57,7 @@ std::vector<RankedEffect> JudgedRound(const EffectInstance& truth) {
 
 // A cross-coupling that falls off with the orbit.
 TEST(JudgeMotionByShape, ACrossCouplingOfTheOrbitKeepsItsName) {
-  const std::string k = "(30000 / (1 + (x * x + y * y) / 4e-10))";
+  const std::string k = "(30000 / (1 + (x * x + y * y) / 9e-10))";
   const std::vector<RankedEffect> ranking =
       JudgedRound(FormulaAt("A", {{"force.x", "-" + k + " * y"}, {"force.y", k + " * x"}}));
   const RankedEffect& best = ranking.at(0);
