@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 
@@ -31,10 +32,19 @@ void Tell(const Case& c, const RecordsSetRight& all, Explanation& e) {
                                        c.records[r].data_file, std::abs(all.rows_late[r]),
                                        std::abs(all.rows_late[r]) == 1 ? "" : "s",
                                        all.rows_late[r] > 0 ? "late" : "early"));
-  for (std::size_t r = 0; r < all.inputs_larger.size(); ++r)
+  for (std::size_t r = 0; r < all.inputs_larger.size(); ++r) {
+    bool told = all.inputs_larger[r] == 0;
     for (NuisanceFound& f : e.nuisances)
-      if (f.name == kInputGain && f.record == c.records[r].data_file)
+      if (f.name == kInputGain && f.record == c.records[r].data_file) {
         f.value = (1 + all.inputs_larger[r]) * (1 + f.value) - 1;
+        told = true;
+      }
+    if (!told)
+      e.warnings.push_back(fmt::format(
+          "the commands of {} are {:.2f} % {} than its scenario says: they are simulated so",
+          c.records[r].data_file, 100 * std::abs(all.inputs_larger[r]),
+          all.inputs_larger[r] > 0 ? "larger" : "smaller"));
+  }
 }
 
 }  // namespace

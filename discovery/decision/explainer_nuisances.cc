@@ -122,7 +122,7 @@ bool Explainer::FindWhatDiffers(FitResult& base, FitResult& now) {
   if (!before) return false;
   const bool plain = ExplainedShare(RatiosOf(model_, before->fit).Answered(),
                                     RatiosOf(model_, now).Answered()) >= kPlain;
-  if (plain && options_.clocks && FindLateRows(now)) return true;
+  if (plain && ((options_.clocks && FindLateRows(now)) || FindInputs(now))) return true;
   const FitResult bare = base;
   if (!effect_instead_ || out_.adopted.empty()) base = FitNow(base.hypothesis, nullptr);
   std::vector<RankedEffect> second = out_.second_round;
@@ -192,18 +192,18 @@ bool Explainer::FindLateRows(const FitResult& base) {
 }
 
 /// Pulses that an amplifier's voltage limits, or that move the instants at which its limiter lets go, do not grow in
-/// proportion to their set-points: a column of one slope leaves floors of error there. Only where the case declares
-/// the inputs uncertain: then they stay free about the sizes found, and no effect is taken for them.
+/// proportion to their set-points: a column of one slope leaves floors of error there. They stay free about the sizes
+/// found where the case declares them uncertain, or where they still differ.
 bool Explainer::FindInputs(const FitResult& base) {
-  constexpr double kKnown = 0.1;     // of the declared sd: the records tell the size, not the prior
+  constexpr double kKnown = 0.1;     // of the prior's sd: the records tell the size, not the prior
   constexpr double kLeastGain = 10;  // of the score
-  const double declared = full_.data().nuisances.input_gain;
-  if (options_.inputs <= 0 || declared <= 0 || !full_.nuisances.differ()) return false;
+  const auto kind = std::ranges::find(record_kinds_, std::string(kInputGain), &NuisanceKind::name);
+  if (options_.inputs <= 0 || kind == record_kinds_.end()) return false;
   const std::vector<CaseRecord>& records = full_.data().records;
   std::vector<double> larger(records.size(), 0);
   for (const NuisanceFound& f : AmountsOfNuisances(model_, base.predicted))
     for (std::size_t r = 0; r < records.size(); ++r)
-      if (f.name == kInputGain && f.record == records[r].data_file && f.sd < kKnown * declared)
+      if (f.name == kInputGain && f.record == records[r].data_file && f.sd < kKnown * kind->sd)
         larger[r] = f.value;
   const Case changed = WithInputs(full_.data(), larger);
   CaseModel trial(changed);

@@ -51,6 +51,12 @@ TEST_F(HardCases, CommandsThatAreLargerInEveryRecord) { EXPECT_TRUE(ScoreOf(16, 
 // Eddy currents of a tenth of the smallest usual size, in a closed ring, found in a pair with an effect that then goes.
 TEST_F(HardCases, WhatAPairLeavesAlone) { EXPECT_TRUE(ScoreOf(17, 4).right()); }
 
+// Commands of another size move the instants at which a limiter lets go: undeclared ones are simulated so, too.
+TEST_F(HardCases, CommandsOfAnotherSizeThatNobodyDeclared) { EXPECT_TRUE(ScoreOf(17, 14).right()); }
+
+// The details of the coupling's law and of an unbalance that grows hide the pull.
+TEST_F(HardCases, APullBesideACouplingOfManyOrders) { EXPECT_TRUE(ScoreOf(13, 49).right()); }
+
 // A sensor gain stood in for zeros and commands that nobody declared; beside these it is needless.
 TEST_F(HardCases, WhatNuisancesMakeNeedless) { EXPECT_TRUE(ScoreOf(17, 11).right()); }
 
