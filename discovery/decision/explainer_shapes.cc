@@ -1,6 +1,7 @@
 // Steps of the search: effects that the details of another effect's law hide.
 #include <algorithm>
 
+#include "core/base/errors.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
@@ -31,8 +32,13 @@ std::optional<FitResult> Explainer::BesideFreeShape(const FitResult& now) const 
     ShapeFitOptions options;
     options.effective_sample_size = out_.effective_sample_size;
     options.describe = false;
-    const Shape shape = ShapeOf(law, others.rig, ReachOf(model_, others, law));
-    const ShapeFit shaped = FitShape(model_, others, shape, options);
+    ShapeFit shaped;
+    try {
+      const Shape shape = ShapeOf(law, others.rig, ReachOf(model_, others, law));
+      shaped = FitShape(model_, others, shape, options);
+    } catch (const InputError&) {
+      continue;  // no record has a reading of what its law depends on
+    }
     if (!shaped.fit.converged || ScoreOf(shaped.fit) > score) continue;
     FitResult fit = FitNow(shaped.fit.hypothesis, nullptr);
     if (!fit.converged || ScoreOf(fit) > score) continue;
