@@ -79,6 +79,7 @@ class Explainer {
   std::optional<BeforeNuisances> TryNuisances(FitResult& now, double least_share);
   /// Those, and effects beside them, once effects were found. True: the search is to start again.
   bool FindWhatDiffers(FitResult& base, FitResult& now);
+  bool DropNeedless(const FitResult& base, FitResult& now);
   void SettleBesideNuisances(const FitResult& base, FitResult& now, bool found_before);
   /// Whether one effect explains as much as the nuisances of every record together, which are many:
   /// they are then given up, and the search for effects starts from `bare`.

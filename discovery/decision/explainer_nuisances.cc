@@ -102,11 +102,32 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
   return false;
 }
 
+/// Of several effects those go without which the fit beside the nuisances is as good. An effect whose channels the
+/// nuisances explain a part of gains less than it did, and stays.
+bool Explainer::DropNeedless(const FitResult& base, FitResult& now) {
+  constexpr double kAsGood = 20;  // of the score
+  const std::size_t before = out_.adopted.size();
+  for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
+    std::vector<EffectInstance> others = out_.adopted;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(drop));
+    Hypothesis h = base.hypothesis;
+    for (const EffectInstance& e : others) h.AddEffect(e);
+    FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
+    if (!without.converged || Gain(without, now) > kAsGood) {
+      ++drop;
+      continue;
+    }
+    out_.adopted = std::move(others);
+    now = std::move(without);
+    out_.ladder.push_back(
+        {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
+  }
+  return out_.adopted.size() < before;
+}
+
 /// What was found before the nuisances were may be needless beside them, and have another name.
 void Explainer::SettleBesideNuisances(const FitResult& base, FitResult& now, bool found_before) {
-  const std::size_t effects = out_.adopted.size();
-  if (found_before) Backward(base, now);
-  if (out_.adopted.size() < effects) AdoptMore(now);
+  if (found_before && DropNeedless(base, now)) AdoptMore(now);
   if (found_before) RejudgeNames(base, now, Names::kAllAnew);
   Polish(now);
   DropSizeless(base, now);
