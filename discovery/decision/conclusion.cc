@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "discovery/decision/drift_test.h"
+#include "discovery/decision/evidence.h"
 #include "discovery/decision/likelihood.h"
-#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -68,9 +68,8 @@ bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
 
 /// A law whose size came out with a sign that its physics cannot have, and which leaves more than noise: another force
 /// acts in that direction (a pull that holds the shaft back is a spring or a rub, no motor).
-bool HasImpossibleSign(const EffectInstance& e, const StageRatios& end) {
-  const std::string& positive = EffectNamed(e.name).positive;
-  return !positive.empty() && e.Value(positive) < 0 && end.Answered() > kNoiseLeft;
+bool IsOfAnotherPhysics(const EffectInstance& e, const StageRatios& end) {
+  return HasImpossibleSign(e) && end.Answered() > kNoiseLeft;
 }
 
 std::string SaidOfUnits(double left, const UnitErrors& of_units) {
@@ -129,7 +128,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
   const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named) &&
-                           !HasImpossibleSign(out.adopted[0], end);
+                           !IsOfAnotherPhysics(out.adopted[0], end);
   if (any && !established) {
     out.adopted.clear();
     out.shaped.reset();

@@ -119,6 +119,11 @@ bool HasSize(const FitResult& fit, std::size_t effect) {
   return HasSize(e);
 }
 
+bool HasImpossibleSign(const EffectInstance& effect) {
+  const EffectDescription* d = FindEffect(effect.name);
+  return d && !d->positive.empty() && effect.Value(d->positive) < 0;
+}
+
 bool IsDetailOf(const std::vector<EffectInstance>& adopted, const EffectInstance& effect) {
   const EffectDescription* d = FindEffect(effect.name);
   if (!d || (d->target != TargetKind::kCoil && d->target != TargetKind::kAxis)) return false;

@@ -62,6 +62,9 @@ bool HasSize(const EffectInstance& effect);
 /// for a time constant it goes with (a slow rise tells their quotient) is there all the same.
 bool HasSize(const FitResult& fit, std::size_t effect);
 
+/// Whether the size came out with a sign that its physics never has (a magnetic pull that holds the shaft back).
+bool HasImpossibleSign(const EffectInstance& effect);
+
 /// Whether the effect is a detail of the law of one of `adopted`: it acts on the same coil or the same axis of a
 /// sensor, and each of its sizes is less than half of the smallest usual one.
 bool IsDetailOf(const std::vector<EffectInstance>& adopted, const EffectInstance& effect);

@@ -135,14 +135,18 @@ class Explainer {
   bool IsBesideShape(const EffectInstance& e) const;
   /// An effect that its successors made needless goes again.
   void Backward(const FitResult& base, FitResult& now);
-  /// Names that were open while effects found later were missing: each effect against its rivals beside the
-  /// others; a better one takes its place.
+  FitResult FitWithout(const FitResult& base, std::size_t adopted) const;
+  void TakeOut(std::size_t adopted, FitResult without, FitResult& now);
   /// What no round has judged beside the fit as it is, or all names: what was taken off since tells them apart.
   enum class Names { kNotJudged, kAllAnew };
+  /// Names that were open while effects found later were missing: each effect against its rivals beside the
+  /// others; a better one takes its place.
   void RejudgeNames(const FitResult& base, FitResult& now, Names which = Names::kNotJudged);
   void JudgeOnlyName(const FitResult& base, FitResult& now);
   /// What a round works with; its progress begins at `from` and takes `share` of the search.
   RoundSetting SettingFrom(double from, double share);
+  FitResult FittedToTheEnd(const FitResult& before, const RankedEffect& ranked) const;
+  void NoteRound(const std::vector<RankedEffect>& ranking);
   void NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking);
   /// The names that were open where an effect was judged best, and those nearly as good in another's place.
   std::vector<EffectInstance> RivalsOf(std::size_t adopted) const;

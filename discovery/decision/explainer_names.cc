@@ -67,9 +67,7 @@ void Explainer::JudgeOnlyName(const FitResult& base, FitResult& now) {
     return IsSameName(r.effect, only) || HasSize(r.fit, rig_.effects.size());
   });
   if (!IsSameName(best.effect, only)) {
-    now = best.fit.jacobian.size() > 0
-              ? best.fit
-              : FitOn(model_, base, best.fit.hypothesis, out_.effective_sample_size);
+    now = FittedToTheEnd(base, best);
     out_.adopted[0] = FittedEffect(now, rig_.effects.size());
     out_.ladder.push_back(
         {Named(best.effect) + " in place of " + Named(only), now.ratio_fit, now.ratio_validate});
@@ -86,10 +84,8 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which)
   if (out_.adopted.size() == 1 && (which == Names::kAllAnew || out_.ranking.empty() ||
                                    !IsSameName(out_.ranking[0].effect, out_.adopted[0])))
     JudgeOnlyName(base, now);
-  if (out_.adopted.size() < 2) {
-    out_.judged_beside.clear();
-    return;
-  }
+  out_.judged_beside.clear();
+  if (out_.adopted.size() < 2) return;
   bool swapped = true;
   for (int pass = 0; swapped && pass < kPasses; ++pass) {
     swapped = false;
@@ -115,7 +111,6 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which)
       NoteNames(k, std::move(ranking));
     }
   }
-  out_.judged_beside.clear();
   for (std::size_t k = 1; k < out_.adopted.size(); ++k)
     out_.judged_beside.push_back(Named(out_.adopted[k]));
 }

@@ -108,19 +108,11 @@ bool Explainer::DropNeedless(const FitResult& base, FitResult& now) {
   constexpr double kAsGood = 20;  // of the score
   const std::size_t before = out_.adopted.size();
   for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
-    std::vector<EffectInstance> others = out_.adopted;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(drop));
-    Hypothesis h = base.hypothesis;
-    for (const EffectInstance& e : others) h.AddEffect(e);
-    FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
-    if (!without.converged || Gain(without, now) > kAsGood) {
+    FitResult without = FitWithout(base, drop);
+    if (!without.converged || Gain(without, now) > kAsGood)
       ++drop;
-      continue;
-    }
-    out_.adopted = std::move(others);
-    now = std::move(without);
-    out_.ladder.push_back(
-        {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
+    else
+      TakeOut(drop, std::move(without), now);
   }
   return out_.adopted.size() < before;
 }

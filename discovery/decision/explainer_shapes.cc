@@ -77,9 +77,7 @@ bool Explainer::AdoptBesideShape(FitResult& now) {
     out_.second_round = out_.beside[Named(found)] = ranked.ranking;
     out_.shaped = RatiosOf(model_, r.fit);
     beside_shape_.push_back(Named(found));
-    rounds_.emplace_back();
-    for (const RankedEffect& n : ranked.ranking)
-      rounds_.back().push_back({n.effect, n.probability, n.RatioFit(), false});
+    NoteRound(ranked.ranking);
     return true;
   }
   return false;

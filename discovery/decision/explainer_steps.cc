@@ -69,6 +69,19 @@ double Explainer::GainOfOthers(const FitResult& now, const std::vector<RankedEff
   return most;
 }
 
+/// Only the best of a round were fitted to the end. `before` lends its sensitivities.
+FitResult Explainer::FittedToTheEnd(const FitResult& before, const RankedEffect& ranked) const {
+  return ranked.fit.jacobian.size() > 0
+             ? ranked.fit
+             : FitOn(model_, before, ranked.fit.hypothesis, out_.effective_sample_size);
+}
+
+void Explainer::NoteRound(const std::vector<RankedEffect>& ranking) {
+  rounds_.emplace_back();
+  for (const RankedEffect& r : ranking)
+    rounds_.back().push_back({r.effect, r.probability, r.RatioFit(), r.shaped.has_value()});
+}
+
 RoundSetting Explainer::SettingFrom(double from, double share) {
   return {
       full_,
@@ -90,9 +103,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   const std::vector<RankedEffect>& ranking = ranked.ranking;
   if (round == 0) out_.screened = std::move(ranked.screened);
   (round == 0 ? out_.ranking : out_.second_round) = ranking;
-  rounds_.emplace_back();
-  for (const RankedEffect& r : ranking)
-    rounds_.back().push_back({r.effect, r.probability, r.RatioFit(), r.shaped.has_value()});
+  NoteRound(ranking);
   bool worth = false;
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
@@ -107,10 +118,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   if (round == 0) out_.shaped = best->shaped;
   first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
                                           best->fit.ratio_validate * best->fit.ratio_validate);
-  // Only the best were fitted to the end.
-  now = best->fit.jacobian.size() > 0
-            ? best->fit
-            : FitOn(model_, now, best->fit.hypothesis, out_.effective_sample_size);
+  now = FittedToTheEnd(now, *best);
   out_.adopted.push_back(FittedEffect(now, now.hypothesis.rig.effects.size() - 1));
   out_.ladder.push_back({Named(best->effect), now.ratio_fit, now.ratio_validate});
   Release(now);
@@ -230,11 +238,8 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
       ++drop;
       continue;
     }
-    Hypothesis h = base.hypothesis;
-    for (std::size_t k = 0; k < out_.adopted.size(); ++k)
-      if (k != drop) h.AddEffect(out_.adopted[k]);
     Progress(0.9, "without " + out_.adopted[drop].name);
-    FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
+    FitResult without = FitWithout(base, drop);
     const double gain = Gain(without, now);
     if (!CoilErrorsExplain(drop, now, without) &&
         (WorthAdopting(without, now, gain, 1, 0) ||
@@ -242,11 +247,23 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
       ++drop;
       continue;
     }
-    out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(drop));
-    now = std::move(without);
-    out_.ladder.push_back(
-        {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
+    TakeOut(drop, std::move(without), now);
   }
+}
+
+/// The rig parameters with all adopted effects but this one.
+FitResult Explainer::FitWithout(const FitResult& base, std::size_t adopted) const {
+  Hypothesis h = base.hypothesis;
+  for (std::size_t k = 0; k < out_.adopted.size(); ++k)
+    if (k != adopted) h.AddEffect(out_.adopted[k]);
+  return FitOn(model_, base, h, out_.effective_sample_size);
+}
+
+void Explainer::TakeOut(std::size_t adopted, FitResult without, FitResult& now) {
+  out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(adopted));
+  now = std::move(without);
+  out_.ladder.push_back(
+      {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
 }
 
 /// A last fit with fresh sensitivities of everything.

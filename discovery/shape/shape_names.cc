@@ -59,7 +59,9 @@ class ShapeJudge {
   /// Forces and drags that are plain enough, and whose law is not exact.
   void JudgeMotion() {
     for (RankedEffect& r : ranking_)
-      if (IsMotionLaw(r.effect.name) && IsPlain(r) && IsInexact(r.fit) && HasPossibleSign(r.effect))
+      // a pull that holds the shaft back is another physics, in whatever shape
+      if (IsMotionLaw(r.effect.name) && IsPlain(r) && IsInexact(r.fit) &&
+          !HasImpossibleSign(r.effect))
         TakeShapeOf(r);
   }
 
@@ -76,12 +78,6 @@ class ShapeJudge {
 
   static bool IsInexact(const FitResult& fit) {
     return std::max(fit.ratio_fit, fit.ratio_validate) > kLawIsExact;
-  }
-
-  /// A pull that holds the shaft back is another physics, in whatever shape.
-  static bool HasPossibleSign(const EffectInstance& e) {
-    const std::string& positive = EffectNamed(e.name).positive;
-    return positive.empty() || e.Value(positive) > 0;
   }
 
   /// Whether the name of iron is plain enough, and contested by other iron; of the first effect also where its law is

@@ -55,28 +55,29 @@ std::vector<RankedEffect> JudgedRound(const EffectInstance& truth) {
   return ranking;
 }
 
+/// The name comes first, its law leaves more than noise and the law's shape at most `most`.
+void ExpectNamedByItsShape(const EffectInstance& truth, const std::string& name, double most) {
+  const std::vector<RankedEffect> ranking = JudgedRound(truth);
+  const RankedEffect& best = ranking.at(0);
+  EXPECT_EQ(Named(best.effect), name);
+  EXPECT_GT(best.fit.ratio_fit, 1.2);
+  ASSERT_TRUE(best.shaped);
+  EXPECT_LT(best.RatioFit(), most);
+}
+
 // A cross-coupling that falls off with the orbit.
 TEST(JudgeMotionByShape, ACrossCouplingOfTheOrbitKeepsItsName) {
   const std::string k = "(30000 / (1 + (x * x + y * y) / 9e-10))";
-  const std::vector<RankedEffect> ranking =
-      JudgedRound(FormulaAt("A", {{"force.x", "-" + k + " * y"}, {"force.y", k + " * x"}}));
-  const RankedEffect& best = ranking.at(0);
-  EXPECT_EQ(Named(best.effect), "cross-coupling at A");
-  EXPECT_GT(best.fit.ratio_fit, 1.2);
-  ASSERT_TRUE(best.shaped);
-  EXPECT_LT(best.RatioFit(), 1.05);
+  ExpectNamedByItsShape(FormulaAt("A", {{"force.x", "-" + k + " * y"}, {"force.y", k + " * x"}}),
+                        "cross-coupling at A", 1.05);
 }
 
 // A coupling with a backward second and a fourth order beside the second one.
 TEST(JudgeMotionByShape, ACouplingOfManyOrdersKeepsItsName) {
-  const std::vector<RankedEffect> ranking = JudgedRound(
+  ExpectNamedByItsShape(
       FormulaAt("A", {{"force.x", "3*cos(2*theta+1) + 0.6*cos(2*theta) + 0.4*cos(4*theta)"},
-                      {"force.y", "3*sin(2*theta+1) - 0.6*sin(2*theta) + 0.4*sin(4*theta)"}}));
-  const RankedEffect& best = ranking.at(0);
-  EXPECT_EQ(Named(best.effect), "coupling-misalignment at A");
-  EXPECT_GT(best.fit.ratio_fit, 1.2);
-  ASSERT_TRUE(best.shaped);
-  EXPECT_LT(best.RatioFit(), 1.03);
+                      {"force.y", "3*sin(2*theta+1) - 0.6*sin(2*theta) + 0.4*sin(4*theta)"}}),
+      "coupling-misalignment at A", 1.03);
 }
 
 // A spring that takes hold beyond some play holds the shaft back: no motor does that, whatever its shape.
