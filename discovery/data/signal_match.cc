@@ -1,7 +1,9 @@
 #include "discovery/data/signal_match.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ambrig {
 
@@ -50,23 +52,52 @@ double ErrorAgainst(const std::vector<double>& measured, const std::vector<doubl
 
 namespace {
 
-/// Squared errors of every sample, all columns added, with the prediction `late` samples late.
-void SquaredErrors(const std::vector<MatchedColumn>& columns, long late, std::vector<double>& out) {
-  const auto rows = static_cast<long>(out.size());
-  std::fill(out.begin(), out.end(), 0.0);
-  for (const MatchedColumn& c : columns) {
-    const auto add = [&](long row, double predicted) {
-      const auto k = static_cast<std::size_t>(row);
-      const double e = c.ok[k] ? c.measured[k] - predicted : 0;
-      out[k] += e * e;
-    };
-    // Edges repeat the first or the last prediction; between them the loop has no branch.
-    const long first = std::clamp(late, 0L, rows), last = std::clamp(rows + late, 0L, rows);
-    for (long k = 0; k < first; ++k) add(k, c.predicted.front());
-    for (long k = first; k < last; ++k) add(k, c.predicted[static_cast<std::size_t>(k - late)]);
-    for (long k = last; k < rows; ++k) add(k, c.predicted.back());
+using Rows = Eigen::ArrayXd;
+
+/// Squared errors of every sample, all columns added, with the prediction so many samples late.
+class SquaredErrors {
+ public:
+  explicit SquaredErrors(const std::vector<MatchedColumn>& columns) {
+    for (const MatchedColumn& c : columns) {
+      const auto rows = static_cast<Eigen::Index>(c.size());
+      Column column{Rows(rows), Rows(rows), Eigen::Map<const Rows>(c.predicted.data(), rows)};
+      for (Eigen::Index k = 0; k < rows; ++k) {
+        const bool ok = c.ok[static_cast<std::size_t>(k)] != 0;
+        column.counts[k] = ok ? 1 : 0;
+        column.all_count = column.all_count && ok;
+        column.measured[k] = ok ? c.measured[static_cast<std::size_t>(k)] : 0;
+      }
+      columns_.push_back(std::move(column));
+    }
   }
-}
+
+  void Shifted(long late, Rows& out) const {
+    out.setZero();
+    const Eigen::Index rows = out.size(), first = std::clamp<Eigen::Index>(late, 0, rows),
+                       last = std::clamp<Eigen::Index>(rows + late, 0, rows);
+    for (const Column& c : columns_) {
+      const auto add = [&](Eigen::Index from, Eigen::Index count, const auto& predicted) {
+        const auto error = c.measured.segment(from, count) - predicted;
+        if (c.all_count)
+          out.segment(from, count) += error.square();
+        else
+          out.segment(from, count) += (error * c.counts.segment(from, count)).square();
+      };
+      // Edges repeat the first or the last prediction.
+      add(0, first, Rows::Constant(first, c.predicted[0]));
+      if (last > first) add(first, last - first, c.predicted.segment(first - late, last - first));
+      add(last, rows - last, Rows::Constant(rows - last, c.predicted[rows - 1]));
+    }
+  }
+
+ private:
+  struct Column {
+    Rows measured, counts;  // counts: 1 or 0
+    Eigen::Map<const Rows> predicted;
+    bool all_count = true;
+  };
+  std::vector<Column> columns_;
+};
 
 }  // namespace
 
@@ -78,24 +109,31 @@ Shift BestShift(const std::vector<MatchedColumn>& columns, long most) {
   for (const MatchedColumn& c : columns)
     n += static_cast<double>(std::count(c.ok.begin(), c.ok.end(), 1));
   if (n == 0) return best;
-  std::vector<double> plain(rows), shifted(rows);
-  SquaredErrors(columns, 0, plain);
-  double total = 0;
-  for (const double e : plain) total += e;
-  double least = total;
+  const SquaredErrors errors(columns);
+  Rows plain(static_cast<Eigen::Index>(rows)), shifted = plain;
+  errors.Shifted(0, plain);
+  double least = plain.sum();
   for (long late = -most; late <= most; ++late) {
     if (late == 0) continue;
-    SquaredErrors(columns, late, shifted);
+    errors.Shifted(late, shifted);
     // plain up to the instant, shifted from there on
-    double sum = 0;
-    for (const double e : shifted) sum += e;
-    for (std::size_t from = 0; from < rows; ++from) {
-      if (sum < least) {
-        least = sum;
-        best.late = late;
-        best.from = from;
+    double sum = shifted.sum();
+    constexpr Eigen::Index kBlock = 64;  // passed over where no instant in it can be the best
+    for (Eigen::Index first = 0; first < plain.size(); first += kBlock) {
+      const Eigen::Index count = std::min(kBlock, plain.size() - first);
+      const auto change = plain.segment(first, count) - shifted.segment(first, count);
+      if (sum + change.min(0).sum() >= least) {
+        sum += change.sum();
+        continue;
       }
-      sum += plain[from] - shifted[from];
+      for (Eigen::Index from = first; from < first + count; ++from) {
+        if (sum < least) {
+          least = sum;
+          best.late = late;
+          best.from = static_cast<std::size_t>(from);
+        }
+        sum += plain[from] - shifted[from];
+      }
     }
   }
   // rows whose prediction lies outside the record were not predicted: they choose, but say nothing
@@ -104,13 +142,14 @@ Shift BestShift(const std::vector<MatchedColumn>& columns, long most) {
     const long from = static_cast<long>(row) - best.late;
     return (row < best.from && !late_at_once) || (from >= 0 && from < static_cast<long>(rows));
   };
-  SquaredErrors(columns, best.late, shifted);
+  errors.Shifted(best.late, shifted);
   double before = 0, after = 0, at_once = 0, rows_inside = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     if (!inside(row)) continue;
-    before += plain[row];
-    after += row < best.from ? plain[row] : shifted[row];
-    at_once += shifted[row];
+    const auto k = static_cast<Eigen::Index>(row);
+    before += plain[k];
+    after += row < best.from ? plain[k] : shifted[k];
+    at_once += shifted[k];
     rows_inside += 1;
   }
   const double share = rows_inside > 0 ? n * rows_inside / static_cast<double>(rows) : n;

@@ -126,6 +126,8 @@ class Explainer {
   /// The effect that explains most alone may be none of two that are there: the best pairs of the
   /// screening are fitted too where one effect does not explain nearly all.
   void TryPairs(const FitResult& base, FitResult& now);
+  /// Whether a short fit of a pair leaves a full one a chance; `more`: it has more effects than were adopted.
+  bool MayBeAdopted(const FitResult& now, const FitResult& brief, bool more) const;
   /// The steps one by one have fitted this pair, or one with more in it.
   bool AlreadyTried(const CandidatePair& p) const;
   /// The effects that the details of another one's law hide (explainer_shapes.cc).

@@ -1,6 +1,8 @@
 // Steps of the search: what differs from record to record without being physics that the model lacks.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "discovery/data/input_size.h"
@@ -21,6 +23,7 @@ constexpr long kMostRows = 4;  // by which a clock may be off; more is a matter 
 // may follow a law by chance (eight: F = 63 on 1 and 7 degrees of freedom, p = 1e-4).
 constexpr double kMostOfNuisances = 0.9;
 constexpr std::size_t kManyAmounts = 8;
+constexpr std::size_t kTried = 3;  // effects in their place
 
 }  // namespace
 
@@ -87,12 +90,12 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
   ScreenOptions screen;
   screen.effective_sample_size = out_.effective_sample_size;
   const std::vector<Candidate> candidates = Screen(model_, bare, ResidualPeaks(), screen, bank_);
-  const std::size_t tried = std::min<std::size_t>(candidates.size(), 3);
-  for (std::size_t k = 0; k < tried; ++k) {
-    if (ExplainedShare(bare.ratio_fit, candidates[k].ratio_fit) < 0.6) break;
-    Progress(0.07, Named(candidates[k].effect) + " in place of the nuisances");
-    if (!explains_as_much(FitBriefly(model_, bare, candidates[k], out_.effective_sample_size)))
-      continue;
+  std::set<std::string> tried;  // each law where it promises most
+  for (const Candidate& c : candidates) {
+    if (tried.size() == kTried || ExplainedShare(bare.ratio_fit, c.ratio_fit) < 0.6) break;
+    if (!tried.insert(c.effect.name).second) continue;
+    Progress(0.07, Named(c.effect) + " in place of the nuisances");
+    if (!explains_as_much(FitBriefly(model_, bare, c, out_.effective_sample_size))) continue;
     out_.ladder.pop_back();
     effect_instead_ = true;
     return true;

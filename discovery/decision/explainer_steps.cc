@@ -206,8 +206,10 @@ void Explainer::TryPairs(const FitResult& base, FitResult& now) {
     Hypothesis h = base.hypothesis;
     h.AddEffect(p.first);
     h.AddEffect(p.second);
-    FitResult fit = FitOn(model_, base, h, out_.effective_sample_size);
     const bool more = out_.adopted.size() < 2;
+    FitResult fit = FitShortly(model_, base, h, out_.effective_sample_size);
+    if (!MayBeAdopted(now, fit, more)) continue;
+    fit = FitOn(model_, base, fit.hypothesis, out_.effective_sample_size);
     if (!fit.converged || Gain(now, fit) < (more ? 20 : 0) || !HasSize(fit, rig_.effects.size()) ||
         !HasSize(fit, rig_.effects.size() + 1) ||
         (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_)))
@@ -219,6 +221,16 @@ void Explainer::TryPairs(const FitResult& base, FitResult& now) {
     out_.ladder.push_back(
         {Named(p.first) + " and " + Named(p.second), now.ratio_fit, now.ratio_validate});
   }
+}
+
+bool Explainer::MayBeAdopted(const FitResult& now, const FitResult& brief, bool more) const {
+  constexpr double kOpen = 60;                 // of the score, that a full fit may still gain
+  constexpr double kUnseen = 0.2, kFit = 0.4;  // half of the shares that adoption asks for
+  const double gain = Gain(now, brief);
+  if (!brief.converged || gain < (more ? 0 : -kOpen)) return false;
+  return !more || !Believable(now) ||
+         ExplainedShare(now.ratio_validate, brief.ratio_validate) > kUnseen ||
+         ExplainedShare(now.ratio_fit, brief.ratio_fit) > kFit;
 }
 
 /// The steps one by one have fitted this pair, or one with more in it.

@@ -97,9 +97,10 @@ double RowsPerIndependentOne(const std::vector<double>& v, std::size_t first, st
   double sum = 1;
   const std::size_t lags = std::min<std::size_t>(200, count / 4);
   for (std::size_t lag = 1; lag < lags; ++lag) {
-    double c = 0;
-    for (std::size_t k = first; k + lag < first + count; ++k) c += v[k] * v[k + lag];
-    const double rho = c / static_cast<double>(count - lag) / power;
+    const auto pairs = static_cast<Eigen::Index>(count - lag);
+    const double c = Eigen::Map<const Eigen::VectorXd>(v.data() + first, pairs)
+                         .dot(Eigen::Map<const Eigen::VectorXd>(v.data() + first + lag, pairs));
+    const double rho = c / static_cast<double>(pairs) / power;
     sum += 2 * rho * rho;
   }
   return sum;

@@ -168,6 +168,19 @@ class PracticeMaker {
       if (IsWithinCoilErrors(e, believed_))
         throw InputError(out_.name + ": what is hidden is no more than the spread of the coils");
     if (!laws_.empty()) RequireCalm(model);
+    parameters_show_ = ParametersShow(model, floor.clean);
+  }
+
+  /// Whether what the unit's parameters change of the records is more than a part of the noise.
+  bool ParametersShow(const CaseModel& model, const std::vector<double>& as_drawn) const {
+    constexpr double kShows = 1.05;  // error over the noise of the rig file's model
+    const auto as_filed = model.Predict(Hypothesis::Base(believed_));
+    if (!as_filed) return true;
+    double change = 0;
+    for (const Target& t : model.targets())
+      for (std::size_t k = t.first; k < t.first + t.count; ++k)
+        change += std::pow((as_drawn[k] - (*as_filed)[k]) / t.floor, 2);
+    return std::sqrt(1 + change / static_cast<double>(model.size())) > kShows;
   }
 
   /// A law that brings the loops to the edge of stability leaves records of noise and initial states.
@@ -207,7 +220,8 @@ class PracticeMaker {
       a.verdicts = {"unknown"};
     } else if (out_.kind == "nothing") {
       a.verdicts = {exact ? "none" : "parameters"};
-      if (out_.nuisances != "none") a.verdicts.push_back(exact ? "parameters" : "none");
+      if (out_.nuisances != "none" || (!exact && !parameters_show_))
+        a.verdicts.push_back(exact ? "parameters" : "none");
     } else {
       a.verdicts = {"effect"};
       for (const ChosenLaw& c : laws_) a.slots.push_back(RightNames(c.law->effect, c.target));
@@ -227,6 +241,7 @@ class PracticeMaker {
   Hypothesis truth_;
   Surroundings surroundings_;
   std::vector<ChosenLaw> laws_;
+  bool parameters_show_ = true;
   PracticeCase out_;
 };
 

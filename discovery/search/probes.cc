@@ -79,8 +79,11 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
                                    const EffectParameter& p, const ResidualPeaks& peaks) {
   std::vector<double> seeds;
   if (d.tone) {
-    if (const auto it = peaks.coherent.find(target); it != peaks.coherent.end()) seeds = it->second;
-    AppendApart(seeds, {50, 60}, 0.01);
+    const auto strongest = peaks.coherent.find(target), tones = peaks.tones.find(target);
+    if (tones != peaks.tones.end() && !tones->second.empty())
+      seeds = tones->second;
+    else
+      seeds = WithMains(strongest == peaks.coherent.end() ? seeds : strongest->second);
   } else {
     seeds = peaks.spectrum;
     const int n = IsResonance(d)

@@ -15,6 +15,9 @@ namespace ambrig {
 namespace {
 
 constexpr std::size_t kCoherentPeaks = 3, kSpectrumPeaks = 4;
+// Least shares of the squared error above the noise that the lines of a tone hold: of all records of a free rotor, or
+// of one reading in all of them. An error below the least excess, a share of the rows, counts as that.
+constexpr double kOfAll = 0.05, kOfReading = 0.2, kLeastExcess = 0.05;
 
 bool IsReading(const CaseModel& model, const Target& t) {
   const CaseRecord& record = model.data().records[t.record];
@@ -90,7 +93,81 @@ std::vector<double> CoherentPower(const CaseModel& model, const std::vector<Sums
   return power;
 }
 
+/// Squared error above the noise in some targets, and what the lines of each tone hold of it at most (any phase in
+/// every target).
+struct LineShares {
+  double excess = 0, rows = 0;
+  std::vector<double> held;
+
+  void Add(double more_excess, double more_rows, const std::vector<double>& more) {
+    excess += more_excess;
+    rows += more_rows;
+    held.resize(more.size());
+    for (std::size_t k = 0; k < more.size(); ++k) held[k] += more[k];
+  }
+  bool Holds(std::size_t tone, double share) const {
+    return held[tone] > share * std::max(excess, kLeastExcess * rows);
+  }
+};
+
+/// What the lines at f, 3f and 5f hold in one target, less what noise puts there.
+std::vector<double> LinesIn(const CaseModel& model, const std::vector<double>& residual,
+                            const Target& t, const std::vector<double>& f) {
+  std::vector<double> held(f.size());
+  const double rows = CountedRows(model, t);
+  if (rows < 1) return held;
+  for (const double order : {1.0, 3.0, 5.0}) {
+    std::vector<double> line = f;
+    for (double& g : line) g *= order;
+    const Sums sums = SumsAt(model, residual, t, line);
+    for (std::size_t k = 0; k < f.size(); ++k)
+      held[k] += std::max(0.0, 2 * std::norm(sums[k]) / rows - 2);
+  }
+  return held;
+}
+
+/// Those of the frequencies f that tones of the records may have.
+std::vector<double> TonesAmong(const CaseModel& model, const std::vector<double>& residual,
+                               const std::vector<double>& f) {
+  const std::vector<Target>& targets = model.targets();
+  std::vector<std::vector<double>> lines(targets.size());
+  InParallel(targets.size(), [&](std::size_t n) {
+    const CaseRecord& record = model.data().records[targets[n].record];
+    if (OverTime(record) && record.scenario.start != StartState::kClamped)
+      lines[n] = LinesIn(model, residual, targets[n], f);
+  });
+  LineShares all;
+  std::map<std::string, LineShares> readings;
+  for (std::size_t n = 0; n < targets.size(); ++n) {
+    if (lines[n].empty()) continue;
+    const Target& t = targets[n];
+    const double rows = CountedRows(model, t);
+    double excess = -rows;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      if (model.ok()[k]) excess += residual[k] * residual[k];
+    all.Add(excess, rows, lines[n]);
+    if (IsReading(model, t))
+      readings[model.data().records[t.record].data.channels[t.channel].name].Add(excess, rows,
+                                                                                 lines[n]);
+  }
+  std::vector<double> out;
+  for (std::size_t k = 0; k < f.size() && !all.held.empty(); ++k)
+    if (all.Holds(k, kOfAll) || std::any_of(readings.begin(), readings.end(), [&](const auto& r) {
+          return r.second.Holds(k, kOfReading);
+        }))
+      out.push_back(f[k]);
+  return out;
+}
+
 }  // namespace
+
+std::vector<double> WithMains(std::vector<double> frequencies) {
+  for (const double mains : {50.0, 60.0})
+    if (std::none_of(frequencies.begin(), frequencies.end(),
+                     [&](double f) { return std::abs(std::log(mains / f)) < 0.01; }))
+      frequencies.push_back(mains);
+  return frequencies;
+}
 
 ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& residual) {
   std::vector<double> f, wide;
@@ -112,6 +189,8 @@ ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& resid
     for (std::size_t k = 0; k < f.size(); ++k) all[k] += of_plane[k];
   }
   peaks.coherent["rig"] = Peaks(f, all, kCoherentPeaks, 0.04);
+  for (const auto& [plane, strongest] : peaks.coherent)
+    peaks.tones[plane] = TonesAmong(model, residual, WithMains(strongest));
   for (std::size_t n = 0; n < any_phase.size(); ++n)
     for (std::size_t k = 0; k < any_phase[n].size(); ++k)
       power[k] += std::norm(any_phase[n][k]) / static_cast<double>(model.targets()[n].count);

@@ -105,6 +105,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     if (options.coarse && (coils || SeeksFrequency(d))) continue;
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;
+      if (options.effect.empty() && d.tone && peaks.ShowsNoTone(target)) continue;
       const bool coil = IsCoil(target);
       if (coil != coils ||
           (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target)))

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/constants.h"
@@ -45,6 +46,33 @@ TEST(ResidualPeaks, FindsATone) {
   EXPECT_NEAR(peaks.coherent.at("rig")[0], 60, 0.5);
   ASSERT_FALSE(peaks.spectrum.empty());
   EXPECT_NEAR(peaks.spectrum[0], 400, 6);
+  EXPECT_EQ(peaks.tones.at("A"), (std::vector<double>{peaks.coherent.at("A")[0]}));
+  EXPECT_FALSE(peaks.ShowsNoTone("A"));
+}
+
+// Noise, and an error of all frequencies, leave no tone that would be worth a simulation; what the third harmonic
+// holds speaks for its fundamental.
+TEST(ResidualPeaks, TriesOnlyTonesThatHoldAShare) {
+  const Case c = LevitatedRecords();
+  const CaseModel model(c);
+  std::vector<double> noise(model.size()), transient(model.size()), third(model.size());
+  for (const Target& t : model.targets()) {
+    const CaseRecord& r = c.records[t.record];
+    for (std::size_t k = 0; k < t.count; ++k) {
+      const std::size_t row = t.first + k;
+      const double time = r.data.start + static_cast<double>(k) / r.data.rate;
+      noise[row] = Normal(3, 1, row);
+      transient[row] = noise[row] + 30 * std::exp(-static_cast<double>(k) / r.data.rate / 0.0003);
+      third[row] = noise[row];
+      if (r.data.channels[t.channel].name == "B.x")
+        third[row] += std::sin(2 * kPi * 3 * 50 * time + 0.4);
+    }
+  }
+  for (const std::vector<double>* residual : {&noise, &transient})
+    for (const char* plane : {"A", "B", "rig"})
+      EXPECT_TRUE(FindPeaks(model, *residual).ShowsNoTone(plane)) << plane;
+  const std::vector<double> found = FindPeaks(model, third).tones.at("B");
+  EXPECT_TRUE(std::ranges::any_of(found, [](double f) { return std::abs(f - 50) < 0.5; }));
 }
 
 // A thinned model keeps rows of every phase, so that nothing periodic hides.
