@@ -137,7 +137,9 @@ class Explainer {
   bool IsBesideShape(const EffectInstance& e) const;
   /// An effect that its successors made needless goes again.
   void Backward(const FitResult& base, FitResult& now);
-  FitResult FitWithout(const FitResult& base, std::size_t adopted) const;
+  /// The rig parameters with all adopted effects but this one; nothing where a short fit shows that it is needed.
+  std::optional<FitResult> FitWithout(const FitResult& base, const FitResult& now,
+                                      std::size_t adopted) const;
   void TakeOut(std::size_t adopted, FitResult without, FitResult& now);
   /// What no round has judged beside the fit as it is, or all names: what was taken off since tells them apart.
   enum class Names { kNotJudged, kAllAnew };

@@ -111,11 +111,11 @@ bool Explainer::DropNeedless(const FitResult& base, FitResult& now) {
   constexpr double kAsGood = 20;  // of the score
   const std::size_t before = out_.adopted.size();
   for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
-    FitResult without = FitWithout(base, drop);
-    if (!without.converged || Gain(without, now) > kAsGood)
+    std::optional<FitResult> without = FitWithout(base, now, drop);
+    if (!without || !without->converged || Gain(*without, now) > kAsGood)
       ++drop;
     else
-      TakeOut(drop, std::move(without), now);
+      TakeOut(drop, std::move(*without), now);
   }
   return out_.adopted.size() < before;
 }

@@ -18,6 +18,15 @@ constexpr double kDetailLeft =
 // of what the shape leaves, on fitted and unseen records: the least share that a further effect explains
 constexpr double kOfTheRest = 0.5;
 constexpr double kDetailGain = 20;  // of the score: what a free shape gains at least
+
+/// The sensitivities of a fit without those of one effect.
+Eigen::MatrixXd SensitivitiesWithout(const FitResult& fit, std::size_t effect) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < fit.jacobian.cols(); ++k)
+    if (fit.hypothesis.free[static_cast<std::size_t>(k)].effect != static_cast<int>(effect))
+      columns.push_back(k);
+  return fit.jacobian(Eigen::all, columns);
+}
 }  // namespace
 
 /// The fit with the law of one adopted effect in a free shape, all of its sizes free; the best of these effects. Nothing
@@ -28,8 +37,11 @@ std::optional<FitResult> Explainer::BesideFreeShape(const FitResult& now) const 
   for (std::size_t k = 0; k < out_.adopted.size(); ++k) {
     const EffectInstance& law = out_.adopted[k];
     if (!IsMotionLaw(law.name) || law.target == "z") continue;
-    const Hypothesis others = WithoutEffect(now.hypothesis, rig_.effects.size() + k);
+    const std::size_t place = rig_.effects.size() + k;
+    const Hypothesis others = WithoutEffect(now.hypothesis, place);
+    const Eigen::MatrixXd lent = SensitivitiesWithout(now, place);
     ShapeFitOptions options;
+    options.base_jacobian = &lent;
     options.effective_sample_size = out_.effective_sample_size;
     options.describe = false;
     ShapeFit shaped;
@@ -40,7 +52,7 @@ std::optional<FitResult> Explainer::BesideFreeShape(const FitResult& now) const 
       continue;  // no record has a reading of what its law depends on
     }
     if (!shaped.fit.converged || ScoreOf(shaped.fit) > score) continue;
-    FitResult fit = FitNow(shaped.fit.hypothesis, nullptr);
+    FitResult fit = FitNow(shaped.fit.hypothesis, &lent);
     if (!fit.converged || ScoreOf(fit) > score) continue;
     score = ScoreOf(fit);
     best = std::move(fit);

@@ -251,24 +251,31 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
       continue;
     }
     Progress(0.9, "without " + out_.adopted[drop].name);
-    FitResult without = FitWithout(base, drop);
-    const double gain = Gain(without, now);
-    if (!CoilErrorsExplain(drop, now, without) &&
-        (WorthAdopting(without, now, gain, 1, 0) ||
-         ExplainsItsChannels(model_, without, now, gain, false))) {
+    std::optional<FitResult> without = FitWithout(base, now, drop);
+    const double gain = without ? Gain(*without, now) : kInfinity;
+    if (!without || (!CoilErrorsExplain(drop, now, *without) &&
+                     (WorthAdopting(*without, now, gain, 1, 0) ||
+                      ExplainsItsChannels(model_, *without, now, gain, false)))) {
       ++drop;
       continue;
     }
-    TakeOut(drop, std::move(without), now);
+    TakeOut(drop, std::move(*without), now);
   }
 }
 
-/// The rig parameters with all adopted effects but this one.
-FitResult Explainer::FitWithout(const FitResult& base, std::size_t adopted) const {
+std::optional<FitResult> Explainer::FitWithout(const FitResult& base, const FitResult& now,
+                                               std::size_t adopted) const {
+  constexpr double kShare = 0.9, kGain = 200;  // of the error, of the score: plainly needed
   Hypothesis h = base.hypothesis;
   for (std::size_t k = 0; k < out_.adopted.size(); ++k)
     if (k != adopted) h.AddEffect(out_.adopted[k]);
-  return FitOn(model_, base, h, out_.effective_sample_size);
+  const FitResult brief = FitShortly(model_, base, h, out_.effective_sample_size);
+  const bool like_errors = !coil_errors_.empty() && IsCoil(out_.adopted[adopted].target);
+  if (brief.converged && !like_errors && Gain(brief, now) > kGain &&
+      ExplainedShare(brief.ratio_fit, now.ratio_fit) > kShare &&
+      ExplainedShare(brief.ratio_validate, now.ratio_validate) > kShare)
+    return {};
+  return FitOn(model_, base, brief.converged ? brief.hypothesis : h, out_.effective_sample_size);
 }
 
 void Explainer::TakeOut(std::size_t adopted, FitResult without, FitResult& now) {
