@@ -122,10 +122,13 @@ ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInst
     for (const double t : {0.0, 0.5, 1.0})
       reach.speed =
           std::max(reach.speed, std::abs(r.scenario.speed.Speed(t * r.scenario.duration)));
-    const Channel *x = r.data.Find(named.target + ".x"), *y = r.data.Find(named.target + ".y");
-    if (!x || !y || r.scenario.start == StartState::kClamped) continue;
-    for (std::size_t k = 0; k < x->samples.size(); ++k) {
-      const double at = std::hypot(x->samples[k], y->samples[k]);
+    if (r.scenario.start == StartState::kClamped) continue;
+    const Channel *x = r.data.Find(named.target + ".x"), *y = r.data.Find(named.target + ".y"),
+                  *along = r.data.Find(named.target);  // of an axis
+    if (!along && (!x || !y)) continue;
+    for (std::size_t k = 0; k < (along ? along : x)->samples.size(); ++k) {
+      const double at =
+          along ? std::abs(along->samples[k]) : std::hypot(x->samples[k], y->samples[k]);
       if (std::isfinite(at)) reach.radius = std::max(reach.radius, at);
     }
   }

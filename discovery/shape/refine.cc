@@ -76,8 +76,13 @@ void DrawCurve(Refinement& out) {
 }
 
 void Warn(Refinement& out, bool better) {
+  constexpr double kWorse = 1.05;  // of the error over the noise
   if (!better)
     out.warnings.push_back("the free shape explains no more than the catalogue's law: keep that");
+  else if (out.any_unseen && out.ratio_after > kWorse * out.ratio_before)
+    out.warnings.push_back(
+        "unseen records are explained worse than by the catalogue's law: they go beyond the "
+        "support, or another effect is missing");
   if (out.supported_hi <= out.supported_lo)
     out.warnings.push_back("no part of the curve is supported by these records");
   const std::vector<double>& in = out.fit.influence;

@@ -15,6 +15,7 @@ constexpr std::array<const char*, 4> kIron = {"saturation", "iron-reluctance", "
                                               "hysteresis"};
 constexpr std::array<const char*, 4> kMotion = {"side-pull", "cross-coupling", "windage",
                                                 "coupling-misalignment"};
+constexpr const char* kReading = "sensor-gain";
 
 template <class Names>
 bool Holds(const Names& names, const std::string& name) {
@@ -33,10 +34,12 @@ std::string RefinableEffects() {
   std::string all;
   for (const char* name : kIron) all += (all.empty() ? "" : ", ") + std::string(name);
   for (const char* name : kMotion) all += ", " + std::string(name);
-  return all;
+  return all + ", " + kReading;
 }
 
-bool IsRefinable(const std::string& effect) { return IsIronLaw(effect) || IsMotionLaw(effect); }
+bool IsRefinable(const std::string& effect) {
+  return IsIronLaw(effect) || IsMotionLaw(effect) || effect == kReading;
+}
 
 bool IsIronLaw(const std::string& effect) { return Holds(kIron, effect); }
 
@@ -49,6 +52,7 @@ bool DependsOnFlux(const std::string& effect) {
 Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach) {
   if (IsIronLaw(named.name)) return IronShape(named, rig, reach);
   if (named.name == "coupling-misalignment") return TurningShape(named);
+  if (named.name == kReading) return ReadingShape(named, reach);
   if (IsMotionLaw(named.name)) return MotionShape(named, reach);
   throw InputError(
       fmt::format("{} has no curve to refine, allowed: {}", named.name, RefinableEffects()));

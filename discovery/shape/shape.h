@@ -31,7 +31,7 @@ struct Shape {
 /// How far the records drive what the law depends on.
 struct ShapeReach {
   double density = 0;  // largest flux density of the bearing's poles [T]
-  double radius = 0;   // largest displacement of the plane [m]
+  double radius = 0;   // largest displacement of the plane, or along the axis [m]
   double speed = 0;    // largest speed [rad/s]
 };
 
@@ -52,9 +52,10 @@ Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const Shape
 /// Second differences of n neighbours (or first ones).
 Eigen::MatrixXd Differences(Eigen::Index n, int order);
 
-// of iron_shapes.cc, motion_shapes.cc and turning_shapes.cc
+// of iron_shapes.cc, motion_shapes.cc, turning_shapes.cc and reading_shapes.cc
 Shape IronShape(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach);
 Shape MotionShape(const EffectInstance& named, const ShapeReach& reach);
 Shape TurningShape(const EffectInstance& named);
+Shape ReadingShape(const EffectInstance& named, const ShapeReach& reach);
 
 }  // namespace ambrig

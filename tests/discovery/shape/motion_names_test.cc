@@ -2,52 +2,20 @@
 // the name is told from those that only resemble it.
 #include <gtest/gtest.h>
 
-#include "core/math/noise.h"
-#include "discovery/practice/examination.h"
 #include "discovery/practice/laws/practice_law.h"
 #include "discovery/shape/shape_names.h"
-#include "tests/effects/effect_rigs.h"
+#include "tests/discovery/shape/pushed_rotor.h"
 
 namespace ambrig {
 namespace {
 
-constexpr double kReadingNoise = 1e-7, kMotionN = 2000;  // [m]
-
-/// The rotor, running up, pushed at bearing A by three tones in each axis; its readings there count.
-Case PushedCase() {
-  RigParameters rig = ReferenceRig();
-  rig.tolerances.clear();
-  std::string text =
-      "name = \"pushed\"\nrig = \"rig.toml\"\nduration = 0.3\nrecord_rate = 12500.0\nseed = 1\n"
-      "noise = false\nfault_tolerance = false\n[start]\nstate = \"levitated\"\n[speed]\n"
-      "profile = [[0.0, 150.0], [0.3, 300.0]]\n";
-  for (const char* axis : {"x", "y"})
-    text += std::string("[[excitation]]\ntarget = \"A.") + axis +
-            "\"\nport = \"force\"\nkind = \"multisine\"\nstart = 0.02\nstop = 0.3\nfrequencies = " +
-            (*axis == 'x' ? "[30.0, 55.0, 110.0]\nphases = [0.3, 1.9, 4.0]"
-                          : "[37.0, 62.0, 125.0]\nphases = [2.2, 0.7, 5.1]") +
-            "\namplitude = 6.0\n";
-  return EmptyCase(rig, {{"pushed", text, false, false}});
-}
-
 /// The ranking of one round against a machine with `truth`, judged by the shapes of the laws.
 std::vector<RankedEffect> JudgedRound(const EffectInstance& truth) {
-  Case data = PushedCase();
-  Hypothesis machine = Hypothesis::Base(data.rig);
-  machine.rig.effects.push_back(truth);
-  const Record run = CaseModel(data).Simulated(machine, 0, false, 1);
-  for (std::size_t k = 0; k < data.records[0].data.channels.size(); ++k) {
-    Channel& ch = data.records[0].data.channels[k];
-    data.records[0].quality[k].use = ch.name == "A.x" || ch.name == "A.y";
-    for (std::size_t i = 0; i < ch.samples.size(); ++i)
-      ch.samples[i] = run.Find(ch.name)->samples[i] +
-                      kReadingNoise * Normal(5, static_cast<std::uint32_t>(k), i);
-  }
-  CaseModel model(data);
-  for (Target& t : model.targets()) t.floor = kReadingNoise;
+  const PushedRotor rotor(truth);
+  const CaseModel& model = *rotor.model;
   FitOptions options;
   options.effective_sample_size = kMotionN;
-  const FitResult base = Fit(model, Hypothesis::Base(data.rig), options);
+  const FitResult base = Fit(model, Hypothesis::Base(rotor.data.rig), options);
   SignatureBank bank;
   const RoundSetting setting = {model, model, bank, kMotionN, 3, [](double, const std::string&) {}};
   std::vector<RankedEffect> ranking = RankEffects(setting, base, 0).ranking;
