@@ -44,8 +44,8 @@ std::string PartText(const Stretch& s, double d, const std::string& u) {
   return s.outermost() ? beyond : fmt::format("max({},{:.9g})", beyond, -d);
 }
 
-// of the law's gain, either way: no sensor bends more, and stretches that few samples visit stay near the others
-constexpr double kMostBend = 1.5;
+// of the law's gain, either way: sensors of bearings bend by a few percent, and stretches that few samples visit stay near the others
+constexpr double kMostBend = 1.1;
 
 EffectParameter GainOfStretch(int k, double gain) {
   EffectParameter p;
