@@ -91,14 +91,14 @@ Shape ReadingShape(const EffectInstance& named, const ShapeReach& reach) {
   for (int k = 0; k < kReadingPoints; ++k)
     s.u.push_back(reach.radius * (2.0 * k / (kReadingPoints - 1) - 1));
   s.value = [d](const std::vector<double>& gains, double displacement) {
-    double sum = 0;
+    double sum = -displacement;
     for (int k = 0; k < kAllStretches; ++k)
       sum += gains[static_cast<std::size_t>(k)] * PartIn(StretchNumber(k), d, displacement);
     return sum;
   };
   s.u_name = "displacement along " + u;
   s.u_unit = "m";
-  s.value_name = "reading";
+  s.value_name = "reading less displacement";
   s.value_unit = "m";
   return s;
 }

@@ -30,13 +30,13 @@ PlanePoint ReadingOf(const EffectInstance& e, double x, double y) {
 
 TEST(ReadingShape, FormulaSaysWhatTheCurveSays) {
   Shape s = ShapeOf(GainAt("A.y", 1.1), ReferenceRig(), {.radius = 6e-5});
-  for (const double u : {-8e-5, 0.0, 3e-5}) EXPECT_NEAR(s.value(s.Sizes(), u), 1.1 * u, 1e-18);
+  for (const double u : {-8e-5, 0.0, 3e-5}) EXPECT_NEAR(s.value(s.Sizes(), u), 0.1 * u, 1e-18);
   for (std::size_t k = 0; k < s.rows.size(); ++k)
     s.effect.values[s.rows[k]] = 0.9 + 0.05 * static_cast<double>(k);
   for (const double u : {-9e-5, -5e-5, -3e-5, -1e-5, 0.0, 1e-5, 3e-5, 5e-5, 9e-5}) {
     const PlanePoint p = ReadingOf(s.effect, 7e-6, u);
     EXPECT_NEAR(p.x, 7e-6, 1e-18);
-    EXPECT_NEAR(p.y, s.value(s.Sizes(), u), 1e-14) << u;
+    EXPECT_NEAR(p.y, u + s.value(s.Sizes(), u), 1e-14) << u;
   }
 }
 
@@ -76,7 +76,7 @@ TEST(ReadingShape, FindsTheGainsOfTwoSides) {
   EXPECT_LT(f.refined, 1.05);
   for (const double u : {-0.8, -0.4, 0.4, 0.8}) {
     const double at = u * f.shape.u.back(), sd = f.fit.CurveSd(f.shape, at);
-    EXPECT_NEAR(f.shape.value(f.fit.sizes, at), (u > 0 ? 1.12 : 1.02) * at,
+    EXPECT_NEAR(f.shape.value(f.fit.sizes, at), (u > 0 ? 0.12 : 0.02) * at,
                 4 * sd + 0.005 * std::abs(at))
         << u;
   }
@@ -88,7 +88,7 @@ TEST(ReadingShape, FindsAGainThatBends) {
   EXPECT_LT(f.refined, 1.1);
   for (const double u : {-0.6, 0.6}) {
     const double at = u * f.shape.u.back(), sd = f.fit.CurveSd(f.shape, at);
-    EXPECT_NEAR(f.shape.value(f.fit.sizes, at), 1.05 * at + 1e3 * at * at,
+    EXPECT_NEAR(f.shape.value(f.fit.sizes, at), 0.05 * at + 1e3 * at * at,
                 4 * sd + 0.01 * std::abs(at))
         << u;
   }
