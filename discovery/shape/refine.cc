@@ -10,7 +10,9 @@
 #include "core/base/toml_edit.h"
 #include "core/record/channels.h"
 #include "discovery/decision/adopt.h"
+#include "discovery/decision/likelihood.h"
 #include "discovery/decision/prepared_models.h"
+#include "discovery/model/coil_errors.h"
 #include "discovery/model/floor.h"
 #include "discovery/shape/named_law.h"
 #include "effects/effect.h"
@@ -27,6 +29,25 @@ double Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
     throw InputError(fmt::format("{}: the data are wrong ({}); correct them first",
                                  full.data().file, FaultText(f)));
   return before.effective_sample_size;
+}
+
+/// What the coils of the machine differ by is without doubt beside the shape, if anywhere: law and shape are then fitted
+/// once more beside it, and their rigs hold it.
+void FitBesideCoilErrors(const CaseModel& thin, const ShapeFitOptions& options, NamedLaw& law,
+                         Refinement& out) {
+  FitOptions same;
+  same.effective_sample_size = options.effective_sample_size;
+  FitResult named = Fit(thin, law.fit.hypothesis, same);
+  const Hypothesis& found = out.fit.fit.hypothesis;
+  Shape start = out.shape;
+  start.effect = found.rig.effects.back();
+  ShapeFit shaped =
+      FitShape(thin, WithoutEffect(found, found.rig.effects.size() - 1), start, options);
+  if (!named.converged || !shaped.fit.converged) return;
+  law.fit = std::move(named);
+  out.fit = std::move(shaped);
+  const std::vector<NuisanceFound> found_beside = AmountsOfNuisances(thin, out.fit.fit.predicted);
+  for (FitResult* fit : {&law.fit, &out.fit.fit}) AddCoilErrors(found_beside, fit->hypothesis.rig);
 }
 
 /// All rows with the floors of the case: residual and the two ratios.
@@ -75,8 +96,11 @@ void DrawCurve(Refinement& out) {
   }
 }
 
+constexpr double kLeastGain =
+    20;  // of 2 log likelihood, below which a shape is no better than the law
+constexpr double kWorse = 1.05;  // of the error over the noise
+
 void Warn(Refinement& out, bool better) {
-  constexpr double kWorse = 1.05;  // of the error over the noise
   if (!better)
     out.warnings.push_back("the free shape explains no more than the catalogue's law: keep that");
   else if (out.any_unseen && out.ratio_after > kWorse * out.ratio_before)
@@ -132,7 +156,7 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
   progress(0.02, "noise floor");
   const double n = Prepare(*out.model, thin, nominal);
   progress(0.1, "rig parameters");
-  const NamedLaw law = FitNamedLaw(thin, effect, target, n, progress);
+  NamedLaw law = FitNamedLaw(thin, effect, target, n, progress);
   const EffectInstance named = law.fit.hypothesis.rig.effects[law.index];
   out.effect = named.name;
   out.target = named.target;
@@ -140,11 +164,16 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
   out.shape = ShapeOf(named, c.rig, ReachOf(thin, law.fit.hypothesis, named));
   ShapeFitOptions shape_options;
   shape_options.effective_sample_size = n;
-  shape_options.progress = [&](double f, const std::string& t) { progress(0.55 + 0.35 * f, t); };
+  shape_options.progress = [&](double f, const std::string& t) { progress(0.55 + 0.3 * f, t); };
   out.fit = FitShape(thin, WithoutEffect(law.fit.hypothesis, law.index), out.shape, shape_options);
   if (!out.fit.fit.converged)
     throw InputError(
         fmt::format("{}: the shape that starts at the fitted {} loses the rotor", c.file, effect));
+  progress(0.85, "what the coils differ by");
+  if (RenewCoilErrors(thin, out.fit.fit.hypothesis, n)) {
+    shape_options.progress = {};
+    FitBesideCoilErrors(thin, shape_options, law, out);
+  }
   progress(0.9, "all rows");
   DrawCurve(out);
   out.rig_text = RigText(c, out, output);
@@ -157,7 +186,8 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
   out.ladder = {{"parameters", law.base.ratio_fit, law.base.ratio_validate},
                 {NameAtTarget(effect, named.target), out.ratio_fit_before, out.ratio_before},
                 {"refined", out.ratio_fit_after, out.ratio_after}};
-  Warn(out, out.ratio_fit_after < out.ratio_fit_before || out.ratio_after < out.ratio_before);
+  Warn(out, Misfit(out.ratio_fit_before, n) - Misfit(out.ratio_fit_after, n) > kLeastGain ||
+                out.ratio_after < out.ratio_before);
   return out;
 }
 
