@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kSolid = 3e4, kLaminated = 4000, kPathLength = 2e-4;  // [Hz], [Hz], [m]
 
-Case MeasuredBursts(std::uint64_t seed) {
+/// `gains`: errors of the current measurements of A, which the rig file does not hold.
+Case MeasuredBursts(std::uint64_t seed, const std::vector<double>& gains = {}) {
   const std::string file =
       std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
   RigParameters rig = ReadRig(file);
@@ -30,6 +31,7 @@ Case MeasuredBursts(std::uint64_t seed) {
   c.file = "bursts";
   c.rig_file = file;
   Hypothesis truth = Hypothesis::Base(rig);
+  truth.rig.bearings[0].coil_errors.current_gain = gains;
   truth.rig = WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kSolid}});
   truth.rig =
       WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kLaminated}, {"path", kPathLength}});
@@ -81,6 +83,26 @@ TEST(Refine, FindsTheShapeAndWritesARigThatRuns) {
   ASSERT_EQ(refined.effects.size(), c.rig.effects.size() + 1);
   EXPECT_EQ(refined.effects.back().name, "eddy-impedance");
   EXPECT_EQ(refined.effects.back().target, "A");
+}
+
+// Bursts tell the errors of single coils once the shape leaves nothing else: the new rig holds them. What all coils have in
+// common, and in part what goes with the angle of the poles, may be parameters of the rig.
+TEST(Refine, WritesTheErrorsOfTheCoils) {
+  const std::vector<double> truth = {0.004, -0.003, 0.006, -0.005, 0, 0.002, -0.006, 0.003};
+  const Case c = MeasuredBursts(11, truth);
+  const Refinement r = Refine(c, "eddy-currents", "A", "/tmp/refined.toml", {});
+  EXPECT_LT(r.ratio_after, 1.1);
+  const RigParameters refined = ReadRigText(r.rig_text, "refined.toml");
+  const std::vector<double>& found = refined.Find("A")->coil_errors.current_gain;
+  ASSERT_EQ(found.size(), truth.size());
+  double common = 0, left = 0, hidden = 0;
+  for (std::size_t j = 0; j < truth.size(); ++j) common += (found[j] - truth[j]) / 8;
+  EXPECT_LT(std::abs(common), 0.005);
+  for (std::size_t j = 0; j < truth.size(); ++j) {
+    left += std::pow(found[j] - common - truth[j], 2);
+    hidden += truth[j] * truth[j];
+  }
+  EXPECT_LT(left, 0.2 * hidden);
 }
 
 TEST(Refine, NamesWhatCanBeRefined) {
