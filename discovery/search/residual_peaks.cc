@@ -106,7 +106,7 @@ struct LineShares {
     for (std::size_t k = 0; k < more.size(); ++k) held[k] += more[k];
   }
   bool Holds(std::size_t tone, double share) const {
-    return held[tone] > share * std::max(excess, kLeastExcess * rows);
+    return !held.empty() && held[tone] > share * std::max(excess, kLeastExcess * rows);
   }
 };
 
@@ -126,34 +126,36 @@ std::vector<double> LinesIn(const CaseModel& model, const std::vector<double>& r
   return held;
 }
 
-/// Those of the frequencies f that tones of the records may have.
+/// Those of the frequencies f that tones of the records may have. Readings of a clamped rotor show a hum as well.
 std::vector<double> TonesAmong(const CaseModel& model, const std::vector<double>& residual,
                                const std::vector<double>& f) {
   const std::vector<Target>& targets = model.targets();
   std::vector<std::vector<double>> lines(targets.size());
   InParallel(targets.size(), [&](std::size_t n) {
-    const CaseRecord& record = model.data().records[targets[n].record];
-    if (OverTime(record) && record.scenario.start != StartState::kClamped)
+    if (OverTime(model.data().records[targets[n].record]))
       lines[n] = LinesIn(model, residual, targets[n], f);
   });
-  LineShares all;
-  std::map<std::string, LineShares> readings;
+  std::vector<LineShares> parts(1);  // all of a free rotor, then each reading
+  std::map<std::string, std::size_t> readings;
   for (std::size_t n = 0; n < targets.size(); ++n) {
     if (lines[n].empty()) continue;
     const Target& t = targets[n];
+    const CaseRecord& record = model.data().records[t.record];
+    const std::string& channel = record.data.channels[t.channel].name;
     const double rows = CountedRows(model, t);
     double excess = -rows;
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       if (model.ok()[k]) excess += residual[k] * residual[k];
-    all.Add(excess, rows, lines[n]);
-    if (IsReading(model, t))
-      readings[model.data().records[t.record].data.channels[t.channel].name].Add(excess, rows,
-                                                                                 lines[n]);
+    if (record.scenario.start != StartState::kClamped) parts[0].Add(excess, rows, lines[n]);
+    if (!IsOfKind(channel, ChannelKind::kReading)) continue;
+    const auto [place, fresh] = readings.try_emplace(channel, parts.size());
+    if (fresh) parts.emplace_back();
+    parts[place->second].Add(excess, rows, lines[n]);
   }
   std::vector<double> out;
-  for (std::size_t k = 0; k < f.size() && !all.held.empty(); ++k)
-    if (all.Holds(k, kOfAll) || std::any_of(readings.begin(), readings.end(), [&](const auto& r) {
-          return r.second.Holds(k, kOfReading);
+  for (std::size_t k = 0; k < f.size(); ++k)
+    if (std::any_of(parts.begin(), parts.end(), [&](const LineShares& part) {
+          return part.Holds(k, &part == parts.data() ? kOfAll : kOfReading);
         }))
       out.push_back(f[k]);
   return out;
