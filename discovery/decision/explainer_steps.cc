@@ -224,10 +224,9 @@ void Explainer::TryPairs(const FitResult& base, FitResult& now) {
 }
 
 bool Explainer::MayBeAdopted(const FitResult& now, const FitResult& brief, bool more) const {
-  constexpr double kOpen = 60;                 // of the score, that a full fit may still gain
   constexpr double kUnseen = 0.2, kFit = 0.4;  // half of the shares that adoption asks for
   const double gain = Gain(now, brief);
-  if (!brief.converged || gain < (more ? 0 : -kOpen)) return false;
+  if (!brief.converged || gain < (more ? 0 : -kOpenAfterShortFit)) return false;
   return !more || !Believable(now) ||
          ExplainedShare(now.ratio_validate, brief.ratio_validate) > kUnseen ||
          ExplainedShare(now.ratio_fit, brief.ratio_fit) > kFit;

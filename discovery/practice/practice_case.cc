@@ -168,10 +168,11 @@ class PracticeMaker {
       if (IsWithinCoilErrors(e, believed_))
         throw InputError(out_.name + ": what is hidden is no more than the spread of the coils");
     if (!laws_.empty()) RequireCalm(model);
-    parameters_show_ = ParametersShow(model, floor.clean);
+    if (out_.kind == "nothing") parameters_show_ = ParametersShow(model, floor.clean);
   }
 
-  /// Whether what the unit's parameters change of the records is more than a part of the noise.
+  /// Whether what the unit's parameters change of the records is more than a part of the noise. All rows count, those that
+  /// noise makes unpredictable too.
   bool ParametersShow(const CaseModel& model, const std::vector<double>& as_drawn) const {
     constexpr double kShows = 1.05;  // error over the noise of the rig file's model
     const auto as_filed = model.Predict(Hypothesis::Base(believed_));

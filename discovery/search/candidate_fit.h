@@ -15,6 +15,9 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
 FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothesis& start,
                      double effective_sample_size);
 
+/// What a full fit may still gain over a short one, of the score.
+inline constexpr double kOpenAfterShortFit = 60;
+
 /// The fit to the end, from what the short one found. `now` lends its sensitivities to the first
 /// pass.
 FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,

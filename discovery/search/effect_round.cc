@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kResonanceShows = 1.1;  // least ratio at which a later round seeks frequencies
 constexpr double kRivalExplains = 0.5;   // of the error above the noise
-// What a full fit may still gain over a short one: of the score, and of what the best fit has gained.
-constexpr double kOpen = 60, kOpenShare = 0.2;
+constexpr double kOpenShare =
+    0.2;  // what a full fit may still gain of what the best fit has gained
 
 /// Whether the linear screening promises at least half of what adoption would ask for, on unseen
 /// records or, where these hardly show the effect, much on the fitted ones.
@@ -150,14 +150,14 @@ class Ranker {
         Note(more);
         const double gain = ranking_[k].score - more.score;
         if (gain > 0) ranking_[k] = std::move(more);
-        if (gain < kOpen) break;
+        if (gain < kOpenAfterShortFit) break;
       }
   }
 
   /// The best, and the next where the short fits left it open.
   void FitToTheEnd() {
     if (ranking_.empty()) return;
-    const double open = std::max(kOpen, kOpenShare * (here_ - ranking_[0].score));
+    const double open = std::max(kOpenAfterShortFit, kOpenShare * (here_ - ranking_[0].score));
     for (std::size_t k = 0; k < std::min<std::size_t>(ranking_.size(), 2); ++k) {
       if (k > 0 && ranking_[k].score > ranking_[0].score + open) break;
       s_.progress(0.95, "full fit of " + Named(ranking_[k].effect));

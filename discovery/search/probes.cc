@@ -39,13 +39,6 @@ std::vector<double> LogGrid(double lo, double hi, int n) {
   return out;
 }
 
-void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio) {
-  for (double f : more)  // neighbours of what stands there already are left out
-    if (std::none_of(list.begin(), list.end(),
-                     [&](double g) { return std::abs(std::log(f / g)) < ratio; }))
-      list.push_back(f);
-}
-
 /// A resonance is sought with more damping than it has: it is felt from further off, and a fit from
 /// there finds its way down to the true one.
 constexpr double kSoughtDamping = 0.05;

@@ -110,64 +110,76 @@ struct LineShares {
   }
 };
 
-/// What the lines at f, 3f and 5f hold in one target, less what noise puts there.
+/// What the lines at f, 3f and 5f hold in one target of so many rows, less what noise puts there.
 std::vector<double> LinesIn(const CaseModel& model, const std::vector<double>& residual,
-                            const Target& t, const std::vector<double>& f) {
-  std::vector<double> held(f.size());
-  const double rows = CountedRows(model, t);
-  if (rows < 1) return held;
-  for (const double order : {1.0, 3.0, 5.0}) {
-    std::vector<double> line = f;
-    for (double& g : line) g *= order;
-    const Sums sums = SumsAt(model, residual, t, line);
-    for (std::size_t k = 0; k < f.size(); ++k)
-      held[k] += std::max(0.0, 2 * std::norm(sums[k]) / rows - 2);
-  }
+                            const Target& t, double rows, const std::vector<double>& f) {
+  std::vector<double> lines, held(f.size());
+  for (const double order : {1.0, 3.0, 5.0})
+    for (const double g : f) lines.push_back(order * g);
+  const Sums sums = SumsAt(model, residual, t, lines);
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    held[k % f.size()] += std::max(0.0, 2 * std::norm(sums[k]) / rows - 2);
   return held;
 }
 
-/// Those of the frequencies f that tones of the records may have. Readings of a clamped rotor show a hum as well.
-std::vector<double> TonesAmong(const CaseModel& model, const std::vector<double>& residual,
-                               const std::vector<double>& f) {
+/// Whether tones of these frequencies may be in the records. Readings of a clamped rotor show a hum as well.
+std::vector<char> MayBeTones(const CaseModel& model, const std::vector<double>& residual,
+                             const std::vector<double>& f) {
   const std::vector<Target>& targets = model.targets();
+  std::vector<double> rows(targets.size());
   std::vector<std::vector<double>> lines(targets.size());
   InParallel(targets.size(), [&](std::size_t n) {
-    if (OverTime(model.data().records[targets[n].record]))
-      lines[n] = LinesIn(model, residual, targets[n], f);
+    rows[n] = CountedRows(model, targets[n]);
+    if (rows[n] >= 1 && OverTime(model.data().records[targets[n].record]))
+      lines[n] = LinesIn(model, residual, targets[n], rows[n], f);
   });
-  std::vector<LineShares> parts(1);  // all of a free rotor, then each reading
-  std::map<std::string, std::size_t> readings;
+  LineShares all;  // of a free rotor
+  std::map<std::string, LineShares> readings;
   for (std::size_t n = 0; n < targets.size(); ++n) {
     if (lines[n].empty()) continue;
-    const Target& t = targets[n];
-    const CaseRecord& record = model.data().records[t.record];
-    const std::string& channel = record.data.channels[t.channel].name;
-    const double rows = CountedRows(model, t);
-    double excess = -rows;
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      if (model.ok()[k]) excess += residual[k] * residual[k];
-    if (record.scenario.start != StartState::kClamped) parts[0].Add(excess, rows, lines[n]);
-    if (!IsOfKind(channel, ChannelKind::kReading)) continue;
-    const auto [place, fresh] = readings.try_emplace(channel, parts.size());
-    if (fresh) parts.emplace_back();
-    parts[place->second].Add(excess, rows, lines[n]);
+    const CaseRecord& record = model.data().records[targets[n].record];
+    const std::string& channel = record.data.channels[targets[n].channel].name;
+    const double excess = rows[n] * (std::pow(TargetRatio(model, residual, targets[n]), 2) - 1);
+    if (record.scenario.start != StartState::kClamped) all.Add(excess, rows[n], lines[n]);
+    if (IsOfKind(channel, ChannelKind::kReading)) readings[channel].Add(excess, rows[n], lines[n]);
   }
-  std::vector<double> out;
+  std::vector<char> out(f.size());
   for (std::size_t k = 0; k < f.size(); ++k)
-    if (std::any_of(parts.begin(), parts.end(), [&](const LineShares& part) {
-          return part.Holds(k, &part == parts.data() ? kOfAll : kOfReading);
-        }))
-      out.push_back(f[k]);
+    out[k] = all.Holds(k, kOfAll) || std::ranges::any_of(readings, [&](const auto& reading) {
+               return reading.second.Holds(k, kOfReading);
+             });
   return out;
+}
+
+/// Those of the strongest lines of every plane, and of the mains, that tones of the records may have.
+std::map<std::string, std::vector<double>> Tones(
+    const CaseModel& model, const std::vector<double>& residual,
+    const std::map<std::string, std::vector<double>>& strongest) {
+  std::vector<double> all;
+  for (const auto& [plane, lines] : strongest)
+    for (const double f : WithMains(lines)) all.push_back(f);
+  const std::vector<char> may_be = MayBeTones(model, residual, all);
+  std::map<std::string, std::vector<double>> tones;
+  std::size_t at = 0;
+  for (const auto& [plane, lines] : strongest) {
+    tones[plane];  // looked at
+    for (const double f : WithMains(lines))
+      if (may_be[at++]) tones[plane].push_back(f);
+  }
+  return tones;
 }
 
 }  // namespace
 
+void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio) {
+  for (double f : more)
+    if (std::none_of(list.begin(), list.end(),
+                     [&](double g) { return std::abs(std::log(f / g)) < ratio; }))
+      list.push_back(f);
+}
+
 std::vector<double> WithMains(std::vector<double> frequencies) {
-  for (const double mains : {50.0, 60.0})
-    if (std::none_of(frequencies.begin(), frequencies.end(),
-                     [&](double f) { return std::abs(std::log(mains / f)) < 0.01; }))
-      frequencies.push_back(mains);
+  AppendApart(frequencies, {50, 60}, 0.01);
   return frequencies;
 }
 
@@ -191,8 +203,7 @@ ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& resid
     for (std::size_t k = 0; k < f.size(); ++k) all[k] += of_plane[k];
   }
   peaks.coherent["rig"] = Peaks(f, all, kCoherentPeaks, 0.04);
-  for (const auto& [plane, strongest] : peaks.coherent)
-    peaks.tones[plane] = TonesAmong(model, residual, WithMains(strongest));
+  peaks.tones = Tones(model, residual, peaks.coherent);
   for (std::size_t n = 0; n < any_phase.size(); ++n)
     for (std::size_t k = 0; k < any_phase[n].size(); ++k)
       power[k] += std::norm(any_phase[n][k]) / static_cast<double>(model.targets()[n].count);

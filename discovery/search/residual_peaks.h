@@ -25,6 +25,8 @@ struct ResidualPeaks {
   }
 };
 
+/// Adds those of `more` that have no neighbour in the list within this ratio (its logarithm).
+void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio);
 /// These frequencies and those of the mains.
 std::vector<double> WithMains(std::vector<double> frequencies);
 

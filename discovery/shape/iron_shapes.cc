@@ -21,14 +21,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kCurvePoints = 61;
-
-std::vector<double> Evenly(double hi) {
-  std::vector<double> u;
-  for (int k = 0; k < kCurvePoints; ++k) u.push_back(hi * k / (kCurvePoints - 1));
-  return u;
-}
-
 double GapAt(const RigParameters& rig, const std::string& target) {
   const BearingParameters* b = rig.Find(target);
   Require(b != nullptr, "the target of an iron effect is a bearing");
@@ -91,7 +83,7 @@ Shape BhShape(const EffectInstance& named, const ShapeReach& reach) {
   s.u_unit = "T";
   s.value_name = "MMF of the iron per gap";
   s.value_unit = "A";
-  s.u = Evenly(reach.density);
+  s.u = CurvePlaces(reach.density);
   s.value = [reach = reach.density](const std::vector<double>& c, double u) {
     return BhDrop(c, reach, u);
   };
@@ -184,7 +176,7 @@ Shape HysteresisShape(const EffectInstance& named, const ShapeReach& reach) {
   s.u_unit = "T";
   s.value_name = "branch, as current of one coil";
   s.value_unit = "A";
-  s.u = Evenly(width);
+  s.u = CurvePlaces(width);
   s.value = [width](const std::vector<double>& c, double u) {
     double value = 0;
     for (int k = 1; k <= kPlayOperators; ++k)

@@ -13,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kStretches = 6, kMotionCurvePoints = 61;
+constexpr int kStretches = 6;
 
 /// "(k1*min(r,d) + k2*min(max(r-d,0),d) + ... + k6*max(r-5*d,0))"
 std::string Ramps(const std::string& r, double d) {
@@ -50,23 +50,18 @@ EffectParameter Slope(int k, double size, bool negative, const std::string& unit
 /// The formula effect with equal stretches up to `most`, slopes given at their middles.
 Shape RampShape(const EffectInstance& named, double most, const std::string& unit,
                 const std::function<double(double)>& slope) {
-  Shape s;
-  s.effect = MakeInstance(EffectNamed("formula"), named.target);
-  s.effect.label = named.name + ", refined";
+  Shape s = FormulaShape(named, named.target);
   const double d = most / kStretches;
   double size = 0;
   for (int k = 0; k < kStretches; ++k) size = std::max(size, std::abs(slope((k + 0.5) * d)));
   for (int k = 0; k < kStretches; ++k) {
     const double at = slope((k + 0.5) * d);
-    s.effect.table.push_back(Slope(k, std::max(size, 1e-12), at < 0, unit));
-    s.effect.values.push_back(at);
-    s.effect.sd.push_back(0);
-    s.rows.push_back(static_cast<std::size_t>(k));
+    AddFormulaSize(s, Slope(k, std::max(size, 1e-12), at < 0, unit), at);
     s.knots.push_back((k + 0.5) * d);
   }
   s.step = Eigen::VectorXd::Constant(kStretches, std::max(0.3 * size, 1e-12));
   s.roughness = Differences(kStretches, 2);
-  for (int k = 0; k < kMotionCurvePoints; ++k) s.u.push_back(most * k / (kMotionCurvePoints - 1));
+  s.u = CurvePlaces(most);
   s.value = [d](const std::vector<double>& c, double u) { return RampSum(c, d, u); };
   return s;
 }

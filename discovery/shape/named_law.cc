@@ -123,12 +123,12 @@ ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInst
       reach.speed =
           std::max(reach.speed, std::abs(r.scenario.speed.Speed(t * r.scenario.duration)));
     if (r.scenario.start == StartState::kClamped) continue;
-    const Channel *x = r.data.Find(named.target + ".x"), *y = r.data.Find(named.target + ".y"),
-                  *along = r.data.Find(named.target);  // of an axis
-    if (!along && (!x || !y)) continue;
-    for (std::size_t k = 0; k < (along ? along : x)->samples.size(); ++k) {
-      const double at =
-          along ? std::abs(along->samples[k]) : std::hypot(x->samples[k], y->samples[k]);
+    const Channel* axis = r.data.Find(named.target);  // nullptr: the target is a plane
+    const Channel *x = axis ? axis : r.data.Find(named.target + ".x"),
+                  *y = axis ? nullptr : r.data.Find(named.target + ".y");
+    if (!axis && (!x || !y)) continue;
+    for (std::size_t k = 0; k < x->samples.size(); ++k) {
+      const double at = y ? std::hypot(x->samples[k], y->samples[k]) : std::abs(x->samples[k]);
       if (std::isfinite(at)) reach.radius = std::max(reach.radius, at);
     }
   }

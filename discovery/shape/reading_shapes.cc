@@ -6,13 +6,12 @@
 
 #include "core/base/errors.h"
 #include "discovery/shape/shape.h"
-#include "effects/catalogue.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr int kSideStretches = 5, kAllStretches = 2 * kSideStretches, kReadingPoints = 61;
+constexpr int kSideStretches = 5, kAllStretches = 2 * kSideStretches;
 
 /// Stretches of length d from the outermost negative one to the outermost positive one.
 struct Stretch {
@@ -35,16 +34,16 @@ double PartIn(const Stretch& s, double d, double u) {
 
 /// The same as text.
 std::string PartText(const Stretch& s, double d, const std::string& u) {
-  const std::string at = s.from_centre > 0 ? fmt::format("{:.9g}", s.from_centre * d) : "";
-  if (s.positive) {
-    const std::string beyond = fmt::format("max({}{},0)", u, at.empty() ? "" : "-" + at);
-    return s.outermost() ? beyond : fmt::format("min({},{:.9g})", beyond, d);
-  }
-  const std::string beyond = fmt::format("min({}{},0)", u, at.empty() ? "" : "+" + at);
-  return s.outermost() ? beyond : fmt::format("max({},{:.9g})", beyond, -d);
+  const char *beyond_of = s.positive ? "max" : "min", *part_of = s.positive ? "min" : "max";
+  const std::string from =
+      s.from_centre > 0 ? fmt::format("{}{:.9g}", s.positive ? "-" : "+", s.from_centre * d) : "";
+  const std::string beyond = fmt::format("{}({}{},0)", beyond_of, u, from);
+  return s.outermost() ? beyond
+                       : fmt::format("{}({},{:.9g})", part_of, beyond, s.positive ? d : -d);
 }
 
-// of the law's gain, either way: sensors of bearings bend by a few percent, and stretches that few samples visit stay near the others
+// Of the law's gain, either way: sensors of bearings bend by a few percent, and stretches that few samples visit stay near
+// the others.
 constexpr double kMostBend = 1.1;
 
 EffectParameter GainOfStretch(int k, double gain) {
@@ -64,32 +63,30 @@ EffectParameter GainOfStretch(int k, double gain) {
 
 Shape ReadingShape(const EffectInstance& named, const ShapeReach& reach) {
   const std::size_t dot = named.target.find('.');
-  if (dot == std::string::npos || reach.radius <= 0)
+  if (dot == std::string::npos)
     throw InputError(
-        fmt::format("{} at {}: no record of this case moves this axis, allowed: an axis of a "
-                    "radial plane, a case "
-                    "with levitated records",
+        fmt::format("{} at {} has no curve to refine, allowed: an axis of a radial plane",
+                    named.name, named.target));
+  if (reach.radius <= 0)
+    throw InputError(
+        fmt::format("{} at {}: no record of this case moves this axis, allowed: a case with "
+                    "levitated records",
                     named.name, named.target));
   const std::string u = named.target.substr(dot + 1);
   const double gain = named.Value("gain"), d = reach.radius / kSideStretches;
-  Shape s;
-  s.effect = MakeInstance(EffectNamed("formula"), named.target.substr(0, dot));
-  s.effect.label = named.name + ", refined";
+  Shape s = FormulaShape(named, named.target.substr(0, dot));
   std::string text;
   for (int k = 0; k < kAllStretches; ++k) {
     const Stretch stretch = StretchNumber(k);
-    s.effect.table.push_back(GainOfStretch(k, gain));
-    s.effect.values.push_back(gain);
-    s.effect.sd.push_back(0);
-    s.rows.push_back(static_cast<std::size_t>(k));
+    AddFormulaSize(s, GainOfStretch(k, gain), gain);
     s.knots.push_back((stretch.positive ? 1 : -1) * (stretch.from_centre + 0.5) * d);
     text += fmt::format("{}g{}*{}", k > 0 ? " + " : "", k + 1, PartText(stretch, d, u));
   }
   s.effect.formulas = {{"reading." + u, text}};
   s.step = Eigen::VectorXd::Constant(kAllStretches, std::max(0.3 * std::abs(gain - 1), 0.01));
   s.roughness = Differences(kAllStretches, 1);
-  for (int k = 0; k < kReadingPoints; ++k)
-    s.u.push_back(reach.radius * (2.0 * k / (kReadingPoints - 1) - 1));
+  for (int k = 0; k < kCurvePoints; ++k)
+    s.u.push_back(reach.radius * (2.0 * k / (kCurvePoints - 1) - 1));
   s.value = [d](const std::vector<double>& gains, double displacement) {
     double sum = -displacement;
     for (int k = 0; k < kAllStretches; ++k)

@@ -96,9 +96,8 @@ void DrawCurve(Refinement& out) {
   }
 }
 
-constexpr double kLeastGain =
-    20;  // of 2 log likelihood, below which a shape is no better than the law
-constexpr double kWorse = 1.05;  // of the error over the noise
+constexpr double kLeastGain = 20;  // of 2 log likelihood: less is no better than the law
+constexpr double kWorse = 1.05;    // of the error over the noise
 
 void Warn(Refinement& out, bool better) {
   if (!better)

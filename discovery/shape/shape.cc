@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/errors.h"
+#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -56,6 +57,26 @@ Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const Shape
   if (IsMotionLaw(named.name)) return MotionShape(named, reach);
   throw InputError(
       fmt::format("{} has no curve to refine, allowed: {}", named.name, RefinableEffects()));
+}
+
+std::vector<double> CurvePlaces(double hi) {
+  std::vector<double> u;
+  for (int k = 0; k < kCurvePoints; ++k) u.push_back(hi * k / (kCurvePoints - 1));
+  return u;
+}
+
+Shape FormulaShape(const EffectInstance& named, const std::string& target) {
+  Shape s;
+  s.effect = MakeInstance(EffectNamed("formula"), target);
+  s.effect.label = named.name + ", refined";
+  return s;
+}
+
+void AddFormulaSize(Shape& shape, const EffectParameter& size, double start) {
+  shape.rows.push_back(shape.effect.table.size());
+  shape.effect.table.push_back(size);
+  shape.effect.values.push_back(start);
+  shape.effect.sd.push_back(0);
 }
 
 Eigen::MatrixXd Differences(Eigen::Index n, int order) {

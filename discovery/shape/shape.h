@@ -49,6 +49,15 @@ bool DependsOnFlux(const std::string& effect);
 /// effect has none, or the records do not move it.
 Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach);
 
+inline constexpr int kCurvePoints = 61;
+/// So many places from 0 to `hi`.
+std::vector<double> CurvePlaces(double hi);
+
+/// A shape that is a `formula` of the rig file at `target`, without sizes yet.
+Shape FormulaShape(const EffectInstance& named, const std::string& target);
+/// One more size of such a shape, where it starts.
+void AddFormulaSize(Shape& shape, const EffectParameter& size, double start);
+
 /// Second differences of n neighbours (or first ones).
 Eigen::MatrixXd Differences(Eigen::Index n, int order);
 

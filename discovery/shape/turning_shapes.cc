@@ -61,20 +61,16 @@ std::pair<std::string, std::string> TurningFormulas() {
 
 Shape TurningShape(const EffectInstance& named) {
   const double c = named.Value("c"), s = named.Value("s"), size = std::max(std::hypot(c, s), 1e-12);
-  Shape out;
-  out.effect = MakeInstance(EffectNamed("formula"), named.target);
-  out.effect.label = named.name + ", refined";
+  Shape out = FormulaShape(named, named.target);
   const std::vector<TurningOrder> orders = TurningOrders();
   const auto count = static_cast<Eigen::Index>(2 * orders.size());
   out.roughness = Eigen::MatrixXd::Zero(count, count);
   for (const TurningOrder& o : orders)
     for (const bool cosine : {true, false}) {
-      const std::size_t row = out.rows.size();
-      out.effect.table.push_back(OrderAmplitude(o, cosine ? "c" : "s", size));
-      out.effect.values.push_back(!IsOrderOfLaw(o) ? 0 : cosine ? c : s);
-      out.effect.sd.push_back(0);
-      out.rows.push_back(row);
-      const auto at = static_cast<Eigen::Index>(row);
+      const auto at = static_cast<Eigen::Index>(out.rows.size());
+      const double of_law = cosine ? c : s;
+      AddFormulaSize(out, OrderAmplitude(o, cosine ? "c" : "s", size),
+                     IsOrderOfLaw(o) ? of_law : 0);
       if (!IsOrderOfLaw(o)) out.roughness(at, at) = o.order;
     }
   const auto [x, y] = TurningFormulas();
