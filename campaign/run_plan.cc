@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/failure_map.h"
@@ -19,10 +20,6 @@ namespace {
 constexpr int kLoadSteps = 12;
 constexpr double kLoadFirst = -0.23, kLoadLast = -0.07;  // [s], within the warm-up of 0.25 s
 constexpr double kPositionReached = 0.75;                // of the time up to the fault
-
-std::string CoilName(const std::string& bearing, int coil) {
-  return bearing + ".coil" + std::to_string(coil);
-}
 
 /// Turns of a coil that the controller can still use after the fault. [-]
 double TurnsLeft(const CampaignFaultKind& k) {
@@ -100,7 +97,7 @@ std::optional<double> RunPlan::MarginAt(const PlannedRun& p, double t) const {
   FailureSet failed = campaign_.sets[fault.set];
   std::erase_if(failed.coils, [&](int coil) {
     return std::ranges::none_of(p.scenario.faults, [&](const FaultSpec& f) {
-      return f.target == CoilName(p.bearing, coil) && f.time < t;
+      return f.target == CoilName(p.bearing, coil - 1) && f.time < t;
     });
   });
   const BearingParameters& b = *campaign_.rig.Find(p.bearing);
@@ -122,7 +119,7 @@ void RunPlan::AddFaults(const RunIndex& at, Scenario& s) const {
   for (const int coil : set.coils) {
     FaultSpec f;
     f.time = t;
-    f.target = CoilName(set.bearing, coil);
+    f.target = CoilName(set.bearing, coil - 1);
     f.kind = kind.kind;
     f.parameters = kind.parameters;
     s.faults.push_back(f);

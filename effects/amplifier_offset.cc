@@ -38,7 +38,7 @@ EffectDescription AmplifierOffset() {
     ForEachTargetCoil(e, plant, [&](BearingPlant& b, int j) {
       BridgeImperfection& bridge = b.bridge[static_cast<std::size_t>(j)];
       bridge.voltage_offset += offset;
-      bridge.dead_duty = dead_duty;
+      bridge.dead_duty += dead_duty;
       // negative: the drawing's value counts more than is there, but never all of it
       const double whole =
           std::max(b.base_resistance[j] + resistance, kLeast * b.base_resistance[j]);

@@ -11,6 +11,9 @@
   EFFECT(Hysteresis)           \
   EFFECT(EddyCurrents)         \
   EFFECT(EddySleeve)           \
+  EFFECT(BhCurve)              \
+  EFFECT(EddyImpedance)        \
+  EFFECT(PlayHysteresis)       \
   EFFECT(Fringing)             \
   EFFECT(MagneticOffset)       \
   EFFECT(TurnMismatch)         \
@@ -41,9 +44,6 @@
   EFFECT(ConstantLoad)         \
   EFFECT(ContactFriction)      \
   EFFECT(ContactMount)         \
-  EFFECT(BhCurve)              \
-  EFFECT(EddyImpedance)        \
-  EFFECT(PlayHysteresis)       \
   EFFECT(Formula)
 
 namespace ambrig {

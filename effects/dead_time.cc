@@ -22,7 +22,7 @@ EffectDescription DeadTime() {
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double time = e.Value("time");
     ForEachTargetCoil(e, plant, [&](BearingPlant& b, int j) {
-      b.bridge[static_cast<std::size_t>(j)].dead_time = time;
+      b.bridge[static_cast<std::size_t>(j)].dead_time += time;
     });
   };
   return d;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/base/toml_checked.h"
 #include "effects/formula.h"
 #include "effects/formula_parser.h"
@@ -156,7 +157,7 @@ void ReadQuantity(const TomlTable& table, const std::string& quantity, EffectIns
 
 FormulaTarget FormulaTargetOf(const std::string& target) {
   if (target == "rig") return FormulaTarget::kRig;
-  if (target.find(".coil") != std::string::npos) return FormulaTarget::kCoil;
+  if (NamesCoil(target)) return FormulaTarget::kCoil;
   return target.find('.') != std::string::npos ? FormulaTarget::kAxis : FormulaTarget::kPlane;
 }
 

@@ -24,7 +24,7 @@ EffectDescription FreewheelDrop() {
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double drop = e.Value("drop");
     ForEachTargetCoil(e, plant, [&](BearingPlant& b, int j) {
-      b.bridge[static_cast<std::size_t>(j)].freewheel_drop = drop;
+      b.bridge[static_cast<std::size_t>(j)].freewheel_drop += drop;
     });
   };
   return d;

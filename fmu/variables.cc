@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include "core/base/coil_name.h"
 
 namespace ambrig {
 
@@ -61,7 +62,7 @@ void AddInputs(const RigParameters& rig, const Scenario& scenario, std::vector<F
     add(Role::kForce, "force." + axes[a], "N", "added to the controller's force", a, 0);
   for (std::size_t b = 0; b < rig.bearings.size(); ++b)
     for (int j = 0; j < rig.bearings[b].coils(); ++j)
-      add(Role::kCurrent, fmt::format("current.{}.coil{}", rig.bearings[b].name, j + 1), "A",
+      add(Role::kCurrent, "current." + CoilName(rig.bearings[b].name, j), "A",
           "added to the coil's set-point", b, j);
   std::size_t plane = 0;
   for (const BearingParameters& b : rig.bearings) {
@@ -85,7 +86,7 @@ std::vector<std::string> TargetsOf(const Fault& fault, const RigParameters& rig)
   switch (fault.target) {
     case FaultTarget::kCoil:
       for (const BearingParameters& b : rig.bearings)
-        for (int j = 1; j <= b.coils(); ++j) names.push_back(fmt::format("{}.coil{}", b.name, j));
+        for (int j = 0; j < b.coils(); ++j) names.push_back(CoilName(b.name, j));
       break;
     case FaultTarget::kAxis:
       names = AxisNames(rig);

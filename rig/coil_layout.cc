@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/coil_name.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -11,8 +12,8 @@ std::vector<CoilPlace> CoilsOf(const BearingParameters& b) {
   const std::vector<double> angles = stator.Angles();
   std::vector<CoilPlace> coils;
   for (int k = 0; k < b.coils(); ++k)
-    coils.push_back({fmt::format("{}.coil{}", b.name, k + 1), angles[static_cast<std::size_t>(k)],
-                     stator.n[k], stator.gap_offset[k]});
+    coils.push_back({CoilName(b.name, k), angles[static_cast<std::size_t>(k)], stator.n[k],
+                     stator.gap_offset[k]});
   return coils;
 }
 

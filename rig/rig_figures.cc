@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "control/position/controller_kind.h"
+#include "core/base/coil_name.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -14,12 +15,11 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
   for (const auto& b : rig.bearings) {
     known.planes.push_back(b.kind->axial ? "z" : b.name);
     known.bearings.push_back(b.name);
-    for (int j = 1; j <= b.coils(); ++j)
-      known.coils.push_back(b.name + ".coil" + std::to_string(j));
+    for (int j = 0; j < b.coils(); ++j) known.coils.push_back(CoilName(b.name, j));
     for (const auto& axis : b.Axes()) known.axes.push_back(axis);
     const unsigned kind = b.kind->acts_on;
     known.kind[b.name] = known.kind[known.planes.back()] = kind;
-    for (int j = 1; j <= b.coils(); ++j) known.kind[b.name + ".coil" + std::to_string(j)] = kind;
+    for (int j = 0; j < b.coils(); ++j) known.kind[CoilName(b.name, j)] = kind;
     for (const auto& axis : b.Axes()) known.kind[axis] = kind;
   }
   return known;

@@ -60,6 +60,14 @@ PidParameters ReadPid(const TomlTable& t) {
   return p;
 }
 
+/// Whether a table gives a value itself: "gap", or "sensor.z" of its table [sensor].
+bool Gives(const TomlTable& t, const std::string& key) {
+  const std::size_t dot = key.find('.');
+  if (dot == std::string::npos) return t.Has(key);
+  const std::string table = key.substr(0, dot);
+  return t.IsTable(table) && Gives(*t.Table(table), key.substr(dot + 1));
+}
+
 BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const RigParameters& rig,
                               std::vector<Tolerance>& tolerances) {
   BearingParameters b;
@@ -76,7 +84,7 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
     const std::string from = "bearings." + like + ".", to = "bearings." + name + ".";
     const std::vector<Tolerance> all = tolerances;
     for (const Tolerance& k : all)
-      if (k.path.starts_with(from) && !t.Has(k.path.substr(from.size())))
+      if (k.path.starts_with(from) && !Gives(t, k.path.substr(from.size())))
         tolerances.push_back({to + k.path.substr(from.size()), k.sd, kRequired});
   }
   b.name = name;
@@ -183,6 +191,12 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
       if (&b != &other && b.kind->two_axes && other.kind->two_axes && b.z == other.z)
         all->Table(b.name)->Fail(
             "z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
+      else if (&b != &other && b.kind->two_axes && other.kind->two_axes &&
+               b.sensor.z == other.sensor.z)
+        all->Table(b.name)->Fail(
+            "sensor", fmt::format("z = {} m, allowed: another plane than the sensor of bearing {}, "
+                                  "or the rotor's tilt is not seen",
+                                  b.sensor.z, other.name));
   }
   if (opposed == 0 && radial < 2) all->Fail("", "a rigid rotor needs at least two radial bearings");
   if (opposed > 0 && (radial + thrust > 0 || opposed > 1 || rig.rotor_kind != "point"))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/coil_name.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
@@ -33,7 +34,7 @@ Targets TargetsOfRig(const RigParameters& rig) {
   Targets t;
   for (const auto& b : rig.bearings) {
     for (const auto& a : b.Axes()) t.axes.push_back(a);
-    for (int j = 1; j <= b.coils(); ++j) t.coils.push_back(fmt::format("{}.coil{}", b.name, j));
+    for (int j = 0; j < b.coils(); ++j) t.coils.push_back(CoilName(b.name, j));
     if (!b.kind->axial) t.planes.push_back(b.name);
     t.bearings.push_back(b.name);
   }

@@ -57,6 +57,7 @@ struct Scenario {
   std::string retuned_controller;      // designed anew after a redistribution; empty: none
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;
+  std::map<std::string, double> start_current;  // of a clamped start: by coil, "A.coil1" [A]
   SpeedProfile speed;
   double speed_free_from = kInfinity;
   std::vector<Excitation> excitations;

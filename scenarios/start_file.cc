@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 
@@ -44,6 +45,23 @@ void ReadPosition(const TomlTable& position, const std::string& key, const RigPa
   s.clamp[key] = {xy[0], xy[1]};
 }
 
+/// A coil that flows `current` at t = 0 whatever is commanded then.
+void ReadStartCurrent(const TomlTable& currents, const std::string& key, const RigParameters& rig,
+                      Scenario& s) {
+  const std::size_t dot = key.find(".coil");
+  const BearingParameters* b = rig.Find(key.substr(0, dot));
+  bool known = false;
+  for (int j = 0; b && j < b->coils(); ++j) known = known || key == CoilName(b->name, j);
+  if (!known)
+    currents.Fail(key, "is no coil, allowed: those of the rig, \"" +
+                           CoilName(rig.bearings.front().name, 0) + "\" for example");
+  const double i = currents.Number(key), most = rig.amplifier.adc_range,
+               least = rig.amplifier.quadrants < 3 ? 0 : -most;
+  if (i < least || i > most)
+    currents.Fail(key, fmt::format("= {} A, allowed: {} to {} A", i, least, most));
+  s.start_current[key] = i;
+}
+
 }  // namespace
 
 void ReadStart(const TomlTable& root, const RigParameters& rig, Scenario& s) {
@@ -58,6 +76,11 @@ void ReadStart(const TomlTable& root, const RigParameters& rig, Scenario& s) {
     if (s.start != StartState::kClamped)
       t->Fail("position", "is only allowed with state = \"clamped\"");
     for (const auto& key : p->Keys()) ReadPosition(*p, key, rig, s);
+  }
+  if (const auto c = t->Table("current")) {
+    if (s.start != StartState::kClamped)
+      t->Fail("current", "is only allowed with state = \"clamped\"");
+    for (const auto& key : c->Keys()) ReadStartCurrent(*c, key, rig, s);
   }
   t->RejectUnknownKeys();
 }

@@ -10,6 +10,7 @@ struct CoilVoltage {
   double t1 = 0, t2 = 0;       // [s] ends of the first and second piece
   double gain[3] = {0, 0, 0};  // [-]
   double drop[3] = {0, 0, 0};  // [V]
+  bool released = false;       // all switches open: the diodes carry the current until it ends
 };
 
 /// The pieces of a period with `duty` from a bridge without imperfections.

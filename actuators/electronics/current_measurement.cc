@@ -66,7 +66,7 @@ template <class V, class Convert>
     Store(adc[k].v, value);
     sum += value;
     square += i * i;
-    most = Max(i, most);
+    most = Max(Abs(i), most);
   }
   Store(out->mean.v, sum / static_cast<double>(count));
   Store(out->mean_square.v, square / static_cast<double>(count));

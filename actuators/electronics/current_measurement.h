@@ -20,7 +20,7 @@ struct MeasurementNormals {
   const float* instants;
 };
 
-/// Per coil: mean of what was measured; mean square and largest of the true samples. [A], [A²], [A]
+/// Per coil: mean of what was measured; mean square and largest size of the true samples. [A], [A²], [A]
 struct CurrentStatistics {
   Lane mean, mean_square, largest;
 };

@@ -7,6 +7,9 @@
 ///   chopper    on: +U_d; off: 0 (freewheel diode ideal)
 ///   ideal      duty * U_d
 ///
+/// With all switches open the diodes of a full bridge lead the current back into the bus, -(U_d + 2 U_c) against
+/// its sign, and block when it has ended; of a chopper it runs out through the freewheel diode.
+///
 /// Source: docs/theory/base_model.md section 3; [loadcurrentslope] Eq. 1, 5, 11.
 #include <algorithm>
 
@@ -21,7 +24,7 @@ struct BridgeImperfection {
   double voltage_offset = 0;  // [V] constant error
   double dead_duty = 0;       // [-] duty below which nothing comes out
   double late_edge = 0;       // [s] the end of the on-phase comes so much later
-  bool off = false;           // amplifier-off
+  bool off = false;           // amplifier-off: all switches open
   bool stuck_on = false;      // switch-stuck-on
 };
 
@@ -37,8 +40,10 @@ class PowerBridge {
   PowerBridge() = default;
   explicit PowerBridge(const AmplifierParameters& p) : p_(p) {}
 
-  /// Voltages of a period with `duty`.
-  CoilVoltage Pattern(double duty, const BridgeImperfection& imperfection) const;
+  /// Voltages of a period with `duty`. `current` [A]: of the coil at its start; only its sign counts, and only of a
+  /// bridge that is off.
+  CoilVoltage Pattern(double duty, const BridgeImperfection& imperfection,
+                      double current = 0) const;
 
  private:
   AmplifierParameters p_;

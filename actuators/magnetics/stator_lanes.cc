@@ -121,10 +121,18 @@ bool StatorLanes::SomeBlock() const {
   return (std::bit_cast<Flags>(blocked) & ~std::bit_cast<Flags>(open) & present) != 0;
 }
 
+bool StatorLanes::SomeRunOut() const {
+  if (unipolar) return false;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    if (released[j] && !blocked[j]) return true;
+  return false;
+}
+
 void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
   if (!SomeBlock()) return;
   for (int j = 0; j < coils; ++j)
-    if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0))
+    if (blocked[j] && !open[j] && !released[j] &&
+        (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0))
       Unblock(j);
 }
 

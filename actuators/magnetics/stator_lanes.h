@@ -43,6 +43,8 @@ class StatorLanes : public StatorGeometry {
   std::vector<ShortedTurns> shorts;  // any number, several on one coil too
   std::array<bool, kLanes> open{};   // broken for good
   bool unipolar = true;              // two-quadrant bridges: i >= 0
+  /// All switches open: the current ends, of either sign, and its diodes block until the bridge drives again.
+  std::array<bool, kLanes> released{};
 
   // State.
   Lane lambda, i, phi;  // [Wb], [A], [Wb]
@@ -93,7 +95,7 @@ class StatorLanes : public StatorGeometry {
     return coupling == Coupling::kNetwork ? 0 : laws.empty() ? 1 : 200;
   }
   bool NeedsGeneralPath() const {
-    return !shorts.empty() || !laws.empty() || coupling == Coupling::kNetwork;
+    return !shorts.empty() || !laws.empty() || coupling == Coupling::kNetwork || SomeRunOut();
   }
   /// Instantaneous force at the present flux.
   void Force(double x, double y, double* out_x, double* out_y) const;
@@ -114,6 +116,9 @@ class StatorLanes : public StatorGeometry {
   void Unblock(int j);
   /// Whether the diodes of a coil block that is not broken.
   bool SomeBlock() const;
+  /// Whether a current of either sign runs out through the diodes of a released coil. Currents that flow one way need
+  /// no such look: their floor is zero anyway.
+  bool SomeRunOut() const;
   StatorSample SampleAt(const VoltagePattern* pattern, double bus, int k);
   void AddLawTerms(LawTerms* terms) const;
   void Converge(const StatorSample& sample, const SampleWork& work, LawTerms* terms);

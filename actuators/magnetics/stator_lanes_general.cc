@@ -98,7 +98,7 @@ void StatorLanes::StepCurrents(const Lane& currents) {
 void StatorLanes::UnblockDriven(const VoltagePattern& p, double bus, double t, Lane* target) {
   // A blocked coil is an open circuit until its switches close: only what follows counts.
   for (int j = 0; j < coils; ++j) {
-    if (!blocked[j] || open[j]) continue;
+    if (!blocked[j] || open[j] || released[j]) continue;
     const double edge[4] = {t, p.t1[j], std::max(p.t1[j], p.t2[j]), t + h_};
     double volt_seconds = 0;
     for (int q = 0; q < 3; ++q) {
@@ -131,11 +131,13 @@ void StatorLanes::StepWithDiodes(const StatorSample& sample) {
   for (int round = 0; round <= kLanes; ++round) {
     SolveGeneral(sample, &work);
     bool any = false;
-    for (int j = 0; unipolar && j < coils; ++j)
-      if (i[j] < 0) {
-        Block(j);
-        any = true;
-      }
+    for (int j = 0; j < coils; ++j) {
+      // A released coil sees a voltage against its current: where both have one sign, the current has ended.
+      const bool ended = unipolar ? i[j] < 0 : released[j] && i[j] * sample.pattern->gain[2][j] > 0;
+      if (!ended) continue;
+      Block(j);
+      any = true;
+    }
     if (!any) break;
   }
   TakeSample(sample);
@@ -146,7 +148,8 @@ void StatorLanes::StepWithDiodes(const StatorSample& sample) {
 void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
   samples[k] = i;
   const StatorSample sample = SampleAt(&pattern, bus, k);
-  if (coupling == Coupling::kNetwork || !shorts.empty() || SomeBlock() || !StepDriven(sample))
+  if (coupling == Coupling::kNetwork || !shorts.empty() || SomeBlock() || SomeRunOut() ||
+      !StepDriven(sample))
     StepWithDiodes(sample);
   for (FluxLaw* law : laws) law->Commit(phi);
 }
@@ -158,7 +161,7 @@ void StatorLanes::RunGeneralPeriod(const VoltagePattern& pattern, double bus, do
   for (int j = 0; j < coils; ++j)
     one_law = one_law && pattern.t1[j] <= pattern.t2[j];  // else the second edge is none
   for (int k = 0; k < per_period_; ++k) {
-    if (one_law && !SomeBlock())
+    if (one_law && !SomeBlock() && !SomeRunOut())
       k = laws[0]->RunSamples({LoopOver(pattern, bus), rel0_.v, rel1_.v, h_}, k, per_period_);
     if (k < per_period_) StepSample(pattern, bus, k);
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/base/index.h"
 #include "rig/nominal_control.h"
 #include "rig/rig_assembly.h"
@@ -45,7 +46,7 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
     regulator.HoldCurrent(std::max(c.current, 1.01 * kInterrupted),
                           plant().bearings[k].base_resistance[j]);
     c.duty = regulator.DutyFromVoltage(regulator.integral());
-    const std::string name = fmt::format("{}.coil{}", own.name, j + 1);
+    const std::string name = CoilName(own.name, j);
     if (!c.commanded)
       notes.push_back(
           fmt::format("{} carries {:.3g} A, a limit of its set-point: its current cannot follow "

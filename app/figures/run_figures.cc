@@ -83,8 +83,10 @@ constexpr const char* kCoilColors[] = {"@blue", "@orange", "@green", "@purple",
 
 RunStages FindStages(const RunReportData& data) {
   RunStages s;
-  const double end =
-      data.start + static_cast<double>(std::max<std::size_t>(RowsOfRun(data), 1) - 1) / data.rate;
+  std::size_t rows = std::max<std::size_t>(RowsOfRun(data), 1);
+  for (const ReportBearing& b : data.bearings)  // of a clamped shaft there are currents only
+    for (const std::vector<double>& current : b.currents) rows = std::max(rows, current.size());
+  const double end = data.start + static_cast<double>(rows - 1) / data.rate;
   s.whole = {data.start, end};
   for (const ReportEvent& e : data.events) {
     if (e.kind == "fault" && !s.fault) {

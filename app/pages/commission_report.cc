@@ -7,6 +7,7 @@
 
 #include "app/figures/series.h"
 #include "app/pages/html.h"
+#include "core/base/coil_name.h"
 #include "fdd/measurement/detection_feed.h"
 #include "fdd/model/loss_excess.h"
 
@@ -159,9 +160,9 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
       const double L = RippleInductance(rig, b, j);
       text +=
           fmt::format("{:<9} {:>6.2f} {:>8.3f} {:>8.3f} {:>8.2f} {:>8.4f} {:>8.1f} {:>8} {:>8}\n",
-                      fmt::format("{}.coil{}", b.name, j + 1), b.grade, L * 1e3,
-                      b.coils.resistance[j], L / b.coils.resistance[j] * 1e3, b.largest[2][j],
-                      100 * d.smallest_short, Ms(d.smallest_delay), Ms(d.tenth_delay));
+                      CoilName(b.name, j), b.grade, L * 1e3, b.coils.resistance[j],
+                      L / b.coils.resistance[j] * 1e3, b.largest[2][j], 100 * d.smallest_short,
+                      Ms(d.smallest_delay), Ms(d.tenth_delay));
     }
   text += fmt::format(
       "grade: what the model leaves unexplained, above {} it is not used; ripple L: of\n"

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/base/coil_name.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
@@ -47,7 +48,7 @@ void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
 bool Moved(const Scenario& s, const std::string& channel) {
   const auto id = ParseChannel(channel);
   if (!id || id->kind != ChannelKind::kCoilCurrent) return false;
-  const std::string coil = fmt::format("{}.coil{}", id->plane, id->index + 1);
+  const std::string coil = CoilName(id->plane, id->index);
   return std::any_of(s.excitations.begin(), s.excitations.end(), [&](const Excitation& e) {
     return e.target == coil && !(e.kind == "step" && e.start <= 0);
   });

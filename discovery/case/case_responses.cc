@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/base/toml_checked.h"
 #include "core/base/units.h"
 #include "core/record/column_names.h"
@@ -87,7 +88,7 @@ ResponsePoint ExcitedOf(const RigParameters& rig, const RigResponse& r, const st
   std::string name = stated;
   if (name.empty() && !r.input.axis.empty()) name = r.input.axis + ".force";
   if (name.empty() && held)
-    name = fmt::format("{}.coil{}.current", rig.bearings[r.input.bearing].name, r.input.index + 1);
+    name = CoilName(rig.bearings[r.input.bearing].name, r.input.index) + ".current";
   if (name.empty())
     t.Fail("excited",
            "is missing, allowed: the port that was driven, e.g. \"A.x.force\", for " + r.name());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/base/coil_name.h"
 #include "discovery/decision/coil_choice.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/explainer.h"
@@ -125,7 +126,7 @@ void Explainer::StateSdOfCoilErrors(const FitResult& now) {
 }
 
 bool Explainer::CoilErrorsExplain(std::size_t adopted, const FitResult& now, FitResult& without) {
-  if (coil_errors_.empty() || !IsCoil(out_.adopted[adopted].target)) return false;
+  if (coil_errors_.empty() || !NamesCoil(out_.adopted[adopted].target)) return false;
   const UsedNuisances used = Used();
   const std::vector<EffectInstance> all = out_.adopted;
   out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(adopted));

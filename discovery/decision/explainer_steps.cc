@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/last_fit.h"
@@ -269,7 +270,7 @@ std::optional<FitResult> Explainer::FitWithout(const FitResult& base, const FitR
   for (std::size_t k = 0; k < out_.adopted.size(); ++k)
     if (k != adopted) h.AddEffect(out_.adopted[k]);
   const FitResult brief = FitShortly(model_, base, h, out_.effective_sample_size);
-  const bool like_errors = !coil_errors_.empty() && IsCoil(out_.adopted[adopted].target);
+  const bool like_errors = !coil_errors_.empty() && NamesCoil(out_.adopted[adopted].target);
   if (brief.converged && !like_errors && Gain(brief, now) > kGain &&
       ExplainedShare(brief.ratio_fit, now.ratio_fit) > kShare &&
       ExplainedShare(brief.ratio_validate, now.ratio_validate) > kShare)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "discovery/model/branch_rows.h"
 #include "discovery/model/model.h"
 #include "discovery/model/residual.h"
@@ -26,10 +27,6 @@ struct CoilError {
   EffectInstance effect;
 };
 
-std::string CoilTarget(const std::string& bearing, int coil) {
-  return fmt::format("{}.coil{}", bearing, coil);
-}
-
 /// The mean voltage that a bridge gives too much when its on-phase ends late [V/s].
 double VoltsOfEdge(const AmplifierParameters& a) {
   switch (a.modulation) {
@@ -44,7 +41,7 @@ double VoltsOfEdge(const AmplifierParameters& a) {
 
 void AddErrorsOfCoil(const AmplifierParameters& a, const std::string& bearing, int coil,
                      std::vector<CoilError>& out) {
-  const std::string target = CoilTarget(bearing, coil),
+  const std::string target = CoilName(bearing, coil - 1),
                     channel = fmt::format("{}.i{}", bearing, coil);
   const auto add = [&](const char* group, const char* unit, double sd, const char* effect,
                        const char* parameter, double value) {
@@ -121,7 +118,7 @@ void AddCoilErrors(const std::vector<NuisanceFound>& found, RigParameters& rig) 
   for (BearingParameters& b : rig.bearings)
     for (int coil = 1; coil <= b.coils(); ++coil)
       for (const NuisanceFound& f : found) {
-        if (f.coil != CoilTarget(b.name, coil)) continue;
+        if (f.coil != CoilName(b.name, coil - 1)) continue;
         std::vector<double>& all =
             f.group == kCoilGain ? b.coil_errors.current_gain : b.coil_errors.edge;
         all.resize(static_cast<std::size_t>(b.coils()));

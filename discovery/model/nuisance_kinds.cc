@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/record/channels.h"
 #include "discovery/data/input_size.h"
 #include "discovery/model/model.h"
@@ -114,7 +115,7 @@ class Builder {
     if (id && id->kind == ChannelKind::kCoilCurrent &&
         model_.data().nuisances.sensor_zero.contains(channel)) {
       effect = "current-sensor-offset";
-      target = fmt::format("{}.coil{}", id->plane, id->index + 1);
+      target = CoilName(id->plane, id->index);
     }
     if (effect.empty()) return;
     Hypothesis moved = h_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/record/channels.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
@@ -13,7 +14,7 @@ namespace {
 void AddCoils(const Scenario& s, Abilities& a) {
   double least = kInfinity;
   for (const Excitation& e : s.excitations) {
-    if (e.target.find(".coil") == std::string::npos) continue;
+    if (!NamesCoil(e.target)) continue;
     a.coil_port = e.port;
     least = std::min(least, std::abs(e.amplitude));
     a.coil_most = std::max(a.coil_most, std::abs(e.amplitude));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/math/constants.h"
 #include "core/math/noise.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -106,7 +107,7 @@ class Writer {
       const double slot = 0.9 * duration / slots,
                    more = size * (able_.coil_most - able_.coil_least);
       for (int j = 1; j <= coils; ++j) {
-        const std::string coil = fmt::format("{}.coil{}", b.name, j);
+        const std::string coil = CoilName(b.name, j - 1);
         text += Excited(coil, able_.coil_port, "step", 0, duration, able_.coil_least);
         if (more <= 0) continue;
         const double start = 0.05 * duration + slot * ((j - 1) / 2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/math/constants.h"
 #include "core/math/noise.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -114,7 +115,7 @@ struct ExaminationWriter {
       const int coils = b.coils();
       const double slot = 0.9 * duration / (coils / 2);
       for (int j = 1; j <= coils; ++j) {
-        const std::string coil = fmt::format("{}.coil{}", b.name, j);
+        const std::string coil = CoilName(b.name, j - 1);
         text += Excitation(coil, "current", "step", 0, duration, 1.2);
         const double start = 0.05 * duration + slot * ((j - 1) / 2);
         text += Excitation(coil, "current", kind, start, start + 0.8 * slot,

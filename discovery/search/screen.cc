@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "discovery/model/in_parallel.h"
 #include "discovery/search/free_response.h"
 #include "discovery/search/quick_look.h"
@@ -84,7 +85,7 @@ enum class ScreenedKind { kOrdinary, kResonances, kCoils };
 bool HoldsCoils(const SignatureBank& bank) {
   return std::any_of(
       bank.entries().begin(), bank.entries().end(),
-      [](const SignatureBank::Entry& e) { return IsCoil(e.group.probes[0].target); });
+      [](const SignatureBank::Entry& e) { return NamesCoil(e.group.probes[0].target); });
 }
 
 /// Probes of one kind that the bank does not hold yet.
@@ -106,7 +107,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;
       if (options.effect.empty() && d.tone && peaks.ShowsNoTone(target)) continue;
-      const bool coil = IsCoil(target);
+      const bool coil = NamesCoil(target);
       if (coil != coils ||
           (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target)))
         continue;
@@ -190,8 +191,6 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
 }
 
 }  // namespace
-
-bool IsCoil(const std::string& target) { return target.find(".coil") != std::string::npos; }
 
 std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,

@@ -9,9 +9,6 @@
 
 namespace ambrig {
 
-/// Whether a target is one coil ("A.coil3").
-bool IsCoil(const std::string& target);
-
 struct ScreenOptions {
   double effective_sample_size = 1;
   std::string effect, target;  // only this one, at this target only; empty: all

@@ -61,9 +61,18 @@ bool CoilProbes::FalseCurrent(int coil) const {
   return it != looks_.end() && it->second.false_current;
 }
 
+/// A coil whose looks are over, and none of which was in doubt, has a current sensor that is wrong.
+bool CoilProbes::FalseCurrentIsOpen(int coil) const {
+  if (!FalseCurrent(coil)) return false;
+  const Look& look = looks_.at(coil);
+  return look.left > 0 || look.disputed;
+}
+
+void CoilProbes::Dispute(int coil) { looks_[coil].disputed = true; }
+
 bool CoilProbes::OtherFalseCurrent(int coil) const {
   for (int other = 0; other < kLanes; ++other)
-    if (other != coil && (refuted_[other] > 0 || FalseCurrent(other))) return true;
+    if (other != coil && (refuted_[other] > 0 || FalseCurrentIsOpen(other))) return true;
   return false;
 }
 

@@ -37,10 +37,12 @@ class CoilProbes {
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
   /// witness then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
-  /// Whether another coil of the bearing waits for its probe after a false reading of its current, or
-  /// came back from one. Current sensors do not fail one after the other within milliseconds, a
+  /// Whether another coil of the bearing waits for its probes after a false reading of its current, came back
+  /// from one, or answered as healthy to a detector that doubts its model. Current sensors do not fail one after the other within milliseconds, a
   /// model that is wrong says just that: such a conclusion is not to be acted on.
   bool OtherFalseCurrent(int coil) const;
+  /// A probe of `coil` found it healthy, but the detector doubts its model.
+  void Dispute(int coil);
   /// The answer to the probe of `coil`, which was given up, at t.
   void Answer(int coil, bool healthy, double t);
   /// The probe of the idle coil `coil` ended at t.
@@ -55,7 +57,9 @@ class CoilProbes {
     double orbit_before = 0, orbit_after = 0;  // [m]
     int left = 0;                              // looks to come
     bool false_current = false;
+    bool disputed = false;  // a look found it healthy, in doubt
   };
+  bool FalseCurrentIsOpen(int coil) const;
   bool Grown(const Look& look) const;
   int DueIdle(double t) const;
 

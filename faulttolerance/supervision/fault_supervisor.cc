@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/watched_bearing.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -24,10 +25,6 @@ constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows no
 constexpr double kBusyCurrent =
     0.25;  // of it, of a bearing that has lost turns: a coil that is idle no more
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
-
-std::string CoilName(const std::string& bearing, int coil) {
-  return fmt::format("{}.coil{}", bearing, coil + 1);
-}
 
 }  // namespace
 
@@ -73,11 +70,11 @@ void FaultSupervisor::WatchBus(double t, double reading, std::vector<RunEvent>& 
 }
 
 void FaultSupervisor::WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events) {
-  const std::string name = feed_.TakeFaultyAxis();
-  if (name.empty()) return;
   const double t = m.t + T_;
-  events.push_back({t, "detected", name, "", 0});
-  events.push_back({t, "classified", name, ToText(FaultClass::kPositionSensor), 0});
+  for (const std::string& name : feed_.TakeFaultyAxes()) {
+    events.push_back({t, "detected", name, "", 0});
+    events.push_back({t, "classified", name, ToText(FaultClass::kPositionSensor), 0});
+  }
 }
 
 void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m,
@@ -193,8 +190,9 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
     EndIdleProbe(w, coil, t, control, out);
     return;
   }
-  const bool healthy =
-      answer == ProbeAnswer::kHealthy && !(w.probes.FalseCurrent(coil) && w.doubted);
+  const bool disputed = answer == ProbeAnswer::kHealthy && w.probes.FalseCurrent(coil) && w.doubted;
+  const bool healthy = answer == ProbeAnswer::kHealthy && !disputed;
+  if (disputed) w.probes.Dispute(coil);
   w.probed = -1;
   w.detector->EndProbe(healthy, t);
   w.probes.Answer(coil, healthy, t);
@@ -217,6 +215,9 @@ void FaultSupervisor::EndIdleProbe(Watched& w, int coil, double t, const Bearing
   actions_.push_back({t, name, "probe", "faulty"});
   out.events.push_back({t, "detected", name, "", 0});
   out.events.push_back({t, "classified", name, ToText(found.cls), found.fraction});
+  // A coil that carries nothing is told without a model; the rest is not acted on in doubt.
+  const bool no_current = found.cls == FaultClass::kOpen || found.cls == FaultClass::kAmplifierOff;
+  if (w.doubted && !no_current) return;
   Disable(w, found, out);
   Redistribute(w, t, control, out);
 }

@@ -34,13 +34,13 @@ std::span<const CoilDetectorKind> CoilDetectorKinds() {
 
 std::unique_ptr<RunDetector> MakeRunDetector(const std::string& kind, const std::string& where,
                                              const RunDetectorSetup& setup) {
-  // The kinds of the list know eight poles, sides or single magnets; any stator has one of its own.
-  if (setup.model.coupling == Coupling::kNetwork) return MakeLinkageBalance(setup);
   std::string names;
   for (const CoilDetectorKind& k : CoilDetectorKinds()) {
-    if (k.name == kind)
-      return k.make_run ? k.make_run(setup) : std::make_unique<ExaminedDetector>(k, setup);
     names += fmt::format("{}{}", names.empty() ? "" : ", ", k.name);
+    if (k.name != kind) continue;
+    // The kinds of the list know eight poles, sides or single magnets; any stator has one of its own.
+    if (setup.model.coupling == Coupling::kNetwork) return MakeLinkageBalance(setup);
+    return k.make_run ? k.make_run(setup) : std::make_unique<ExaminedDetector>(k, setup);
   }
   throw InputError(fmt::format("{} = \"{}\", allowed: {}", where, kind, names));
 }

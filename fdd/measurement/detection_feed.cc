@@ -200,9 +200,11 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   return in;
 }
 
-std::string DetectionFeed::TakeFaultyAxis() {
-  const int axis = positions_.TakeNewFault();
-  return axis < 0 ? "" : axis_names_[static_cast<std::size_t>(axis)];
+std::vector<std::string> DetectionFeed::TakeFaultyAxes() {
+  std::vector<std::string> names;
+  for (const int axis : positions_.TakeNewFaults())
+    names.push_back(axis_names_[static_cast<std::size_t>(axis)]);
+  return names;
 }
 
 }  // namespace ambrig

@@ -33,8 +33,8 @@ class DetectionFeed {
   /// bus is below half of its nominal voltage.
   MeasuredPeriod Period(std::size_t bearing, const PeriodMeasurement& m) const;
 
-  /// Name of the axis whose reading became faulty with the last Read; empty: none.
-  std::string TakeFaultyAxis();
+  /// Names of the axes whose readings became faulty since the last call.
+  std::vector<std::string> TakeFaultyAxes();
 
  private:
   struct View {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ambrig {
 
@@ -36,7 +37,7 @@ bool PositionMonitor::Read(double t, const std::vector<double>& readings,
     const bool held = a.different > kDifferentReadings && a.equal >= kEqualReadings;
     if (!a.faulty && (jumped || held)) {
       a.faulty = true;
-      if (new_fault_ < 0) new_fault_ = static_cast<int>(k);
+      new_faults_.push_back(static_cast<int>(k));
     }
     a.y[2] = a.y[1];
     a.y[1] = a.y[0];
@@ -54,11 +55,7 @@ double PositionMonitor::Departure(std::size_t a) const {
   return std::max({d[0], d[1], d[2]});
 }
 
-int PositionMonitor::TakeNewFault() {
-  const int k = new_fault_;
-  new_fault_ = -1;
-  return k;
-}
+std::vector<int> PositionMonitor::TakeNewFaults() { return std::exchange(new_faults_, {}); }
 
 std::vector<double> PlaneWeights(const std::vector<double>& sensor_z, double z) {
   double n = 0, s = 0, ss = 0;

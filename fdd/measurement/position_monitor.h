@@ -41,8 +41,8 @@ class PositionMonitor {
   double step() const { return step_; }  // between readings [s]
   bool ready(double t) const { return count_ >= 3 && t - last_ < 6 * step_; }
   bool faulty(std::size_t a) const { return axes_[a].faulty; }
-  /// Axis that became faulty with the last Read, -1: none.
-  int TakeNewFault();
+  /// Axes that became faulty since the last call: several at once where a plane's cable breaks.
+  std::vector<int> TakeNewFaults();
 
  private:
   struct Axis {
@@ -55,7 +55,7 @@ class PositionMonitor {
   std::vector<Axis> axes_;
   double jump_ = 3e-5, noise_ = 0, last_ = -1, step_ = 0, per_step_ = 0;
   long long count_ = 0;
-  int new_fault_ = -1;
+  std::vector<int> new_faults_;
 };
 
 /// Weights w of the planes so that the position at z is Σ w_k y_k.

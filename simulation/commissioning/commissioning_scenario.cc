@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "core/math/constants.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
@@ -40,8 +41,8 @@ void AddTones(const RigParameters& rig, const CommissioningPlan& plan, Scenario*
       std::pow(kHighestTone / kLowestTone, 1.0 / (3.0 * static_cast<double>(coils)));
   for (const BearingParameters& b : rig.bearings)
     for (int j = 0; j < b.coils(); ++j, ++k) {
-      Excitation e = Signal(fmt::format("{}.coil{}", b.name, j + 1), "current", "multisine",
-                            0.15 * plan.duration, 0.45 * plan.duration, plan.current);
+      Excitation e = Signal(CoilName(b.name, j), "current", "multisine", 0.15 * plan.duration,
+                            0.45 * plan.duration, plan.current);
       for (std::size_t tone = 0; tone < 3; ++tone) {
         e.frequencies.push_back(kLowestTone *
                                 std::pow(ratio, static_cast<double>(tone * coils + k)));
@@ -59,9 +60,8 @@ void AddPotentialChirp(const RigParameters& rig, const CommissioningPlan& plan, 
     if (stator.coupling != Coupling::kFloatingRotor) continue;
     const double amplitude = plan.potential * BiasCurrent(rig, b);
     for (int j = 0; j < b.coils(); ++j) {
-      Excitation e =
-          Signal(fmt::format("{}.coil{}", b.name, j + 1), "current", "chirp", 0.15 * plan.duration,
-                 0.6 * plan.duration, stator.n[j] < 0 ? -amplitude : amplitude);
+      Excitation e = Signal(CoilName(b.name, j), "current", "chirp", 0.15 * plan.duration,
+                            0.6 * plan.duration, stator.n[j] < 0 ? -amplitude : amplitude);
       e.f0 = kFirstPotential * rig.amplifier.switching_frequency;
       e.f1 = kLastPotential * rig.amplifier.switching_frequency;
       s->excitations.push_back(e);

@@ -1,6 +1,7 @@
 #include "simulation/continuous/averaged_engine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulation/continuous/continuous_run.h"
 
@@ -8,15 +9,14 @@ namespace ambrig {
 
 namespace {
 
-double MeanVoltage(const CoilVoltage& v, double bus, double T, bool* driven) {
+ContinuousRig::Drive MeanDrive(const CoilVoltage& v, double bus, double T) {
   const double length[3] = {v.t1, v.t2 - v.t1, T - v.t2};
-  double sum = 0;
-  *driven = false;
+  ContinuousRig::Drive out{.released = v.released};
   for (int q = 0; q < 3; ++q) {
-    sum += length[q] * (v.gain[q] * bus + v.drop[q]);
-    *driven = *driven || (length[q] > 0 && v.gain[q] > 0);
+    out.volts += length[q] / T * (v.gain[q] * bus + v.drop[q]);
+    out.driven = out.driven || (length[q] > 0 && v.gain[q] > 0);
   }
-  return sum / T;
+  return out;
 }
 
 class AveragedRun : public ContinuousRun {
@@ -45,12 +45,10 @@ class AveragedRun : public ContinuousRun {
  private:
   void SetVoltages(double) override {
     for (const SampledBearing& b : rig_.bearings)
-      for (int j = 0; j < rig_.control[b.index].coils; ++j) {
-        bool driven;
-        const double v = MeanVoltage(voltage_[b.index][static_cast<std::size_t>(j)],
-                                     rig_.plant.bus.voltage, rig_.T, &driven);
-        plant_->SetVoltage(b.index, j, v, driven);
-      }
+      for (int j = 0; j < rig_.control[b.index].coils; ++j)
+        plant_->SetVoltage(b.index, j,
+                           MeanDrive(voltage_[b.index][static_cast<std::size_t>(j)],
+                                     rig_.plant.bus.voltage, rig_.T));
   }
 
   double Measure(long long n) override {
@@ -58,7 +56,7 @@ class AveragedRun : public ContinuousRun {
     for (SampledBearing& b : rig_.bearings) {
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         mean_[b.index][j] = plant_->MeanCurrent(b.index, j, rig_.T);
-        peak = std::max(peak, mean_[b.index][j]);
+        peak = std::max(peak, std::abs(mean_[b.index][j]));
       }
       rig_.Measure(n, b, &mean_[b.index]);
     }

@@ -65,11 +65,18 @@ void ContinuousRig::BeginPeriod(long long n) {
   restart_ = true;
 }
 
-void ContinuousRig::SetVoltage(std::size_t b, int j, double volts, bool driven) {
-  if (bearings_[b].volts[AsSize(j)] == volts && bearings_[b].driven[AsSize(j)] == driven)
-    return;  // a mere sample
-  bearings_[b].volts[AsSize(j)] = volts;
-  bearings_[b].driven[AsSize(j)] = driven;
+void ContinuousRig::SetVoltage(std::size_t k, int coil, const Drive& drive) {
+  Bearing& b = bearings_[k];
+  const std::size_t j = AsSize(coil);
+  const bool unipolar = rig_.plant.bearings[k].lanes.unipolar;
+  const int way = unipolar ? 1 : !drive.released ? 0 : now_[k].i[j] < 0 ? -1 : 1;
+  // Without diodes in its way a coil of four quadrants always conducts.
+  const bool driven = unipolar ? drive.driven : !drive.released;
+  const double volts = drive.released && !unipolar ? -way * std::abs(drive.volts) : drive.volts;
+  if (b.volts[j] == volts && b.driven[j] == driven && b.way[j] == way) return;  // a mere sample
+  b.volts[j] = volts;
+  b.driven[j] = driven;
+  b.way[j] = way;
   restart_ = true;
 }
 
@@ -110,7 +117,9 @@ void ContinuousRig::DecideConduction(std::size_t k, int must_block, int must_car
       Winding& w = b.network.windings[AsSize(j)];
       if (w.broken) continue;
       if (w.conducts) {
-        if (now_[k].i[AsSize(j)] > kNoCurrent || r.i[AsSize(j)] >= -kNoRise) continue;
+        const int way = b.way[AsSize(j)];
+        if (way == 0 || way * now_[k].i[AsSize(j)] > kNoCurrent || way * r.i[AsSize(j)] >= -kNoRise)
+          continue;
         w.conducts = false;
       } else {
         if (!one || !b.driven[AsSize(j)] || j == must_block) continue;
@@ -126,8 +135,7 @@ void ContinuousRig::DecideConduction(std::size_t k, int must_block, int must_car
 }
 
 void ContinuousRig::Restart() {
-  if (rig_.plant.bearings[0].lanes.unipolar)
-    for (std::size_t k = 0; k < bearings_.size(); ++k) DecideConduction(k, -1, -1);
+  for (std::size_t k = 0; k < bearings_.size(); ++k) DecideConduction(k, -1, -1);
   const double t = t0_ + tau_ + 1e-12;
   active_load_ = DofVector{};
   for (std::size_t l = 0; l < load_Q_.size(); ++l) {
@@ -173,7 +181,7 @@ void ContinuousRig::AdvanceTo(double tau) {
 
 void ContinuousRig::HandleRoots(const std::vector<int>& roots) {
   std::size_t r = 0;
-  for (std::size_t k = 0; k < bearings_.size() && rig_.plant.bearings[0].lanes.unipolar; ++k)
+  for (std::size_t k = 0; k < bearings_.size(); ++k)
     for (int j = 0; j < bearings_[k].network.coils; ++j, ++r) {
       if (roots[r] == 0) continue;
       const bool conducts = bearings_[k].network.windings[AsSize(j)].conducts;

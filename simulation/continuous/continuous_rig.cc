@@ -94,8 +94,7 @@ OdeProblem ContinuousRig::MakeProblem(const IntegratorOptions& options) {
   p.rhs = [this](double tau, const double* y, double* f) { Rhs(tau, y, f); };
   p.root = [this](double tau, const double* y, double* g) { Roots(tau, y, g); };
   for (const Bearing& b : bearings_)
-    if (rig_.plant.bearings[0].lanes.unipolar)
-      p.directions.insert(p.directions.end(), AsSize(b.network.coils), -1);
+    p.directions.insert(p.directions.end(), AsSize(b.network.coils), -1);
   if (!rig_.clamped)
     p.directions.insert(p.directions.end(), rig_.plant.rotor.auxiliaries().size() + 1, 0);
   p.roots = static_cast<int>(p.directions.size());
@@ -210,7 +209,7 @@ double ContinuousRig::ContactLoss(const MotionState& s, double* spin_torque) con
 
 void ContinuousRig::Roots(double tau, const double* y, double* g) const {
   const MotionState s = MotionOf(tau, y);
-  for (std::size_t k = 0; k < bearings_.size() && rig_.plant.bearings[0].lanes.unipolar; ++k) {
+  for (std::size_t k = 0; k < bearings_.size(); ++k) {
     const Bearing& b = bearings_[k];
     double px, py;
     Place(k, s, &px, &py);
@@ -222,8 +221,9 @@ void ContinuousRig::Roots(double tau, const double* y, double* g) const {
     for (int j = 0; j < b.network.coils; ++j) {
       const Winding& w = b.network.windings[AsSize(j)];
       *g = 1;
-      if (!w.broken && w.conducts) *g = n.i[AsSize(j)];
-      if (!w.broken && !w.conducts && b.driven[AsSize(j)]) {
+      const int way = b.way[AsSize(j)];
+      if (!w.broken && w.conducts && way != 0) *g = way * n.i[AsSize(j)];
+      if (!w.broken && !w.conducts && b.driven[AsSize(j)] && way != 0) {
         if (!rates) {
           const PlaneMap& plane = rig_.plant.bearings[k].plane;
           Slopes(b, n, slope);

@@ -52,9 +52,13 @@ class ContinuousRig {
   void Settle();
   /// Local time back to 0 at t_n; integrals of force and current start again.
   void BeginPeriod(long long n);
-  /// Voltage of coil j of bearing b from now on [V]. `driven`: its switches are closed, so that a
-  /// current may rise from zero.
-  void SetVoltage(std::size_t b, int j, double volts, bool driven);
+  /// What a coil's bridge does from now on.
+  struct Drive {
+    double volts = 0;       // [V]; of a released coil of four quadrants its size only
+    bool driven = false;    // its switches are closed, so that a current may rise from zero
+    bool released = false;  // all are open: a current of either sign ends
+  };
+  void SetVoltage(std::size_t b, int j, const Drive& drive);
   /// Integrates to local time tau [s], handling every event on the way.
   void AdvanceTo(double tau);
   // Faults of a coil's circuit.
@@ -80,6 +84,8 @@ class ContinuousRig {
     std::size_t force_at = 0, charge_at = 0;
     std::array<double, kLanes> volts{};
     std::array<bool, kLanes> driven{};
+    /// Sign of the current at whose end the diodes block, 0: of none.
+    std::array<int, kLanes> way{};
     std::vector<int> loops;  // per fault of the scenario that adds a winding, in its order
     explicit Bearing(const StatorLanes& lanes) : network(lanes) {}
   };

@@ -35,9 +35,14 @@ void ContinuousRun::Period(long long n) {
   plant_->BeginPeriod(n);
   const double copper = plant_->Energies().copper;
   FillInstants(n);
-  for (double tau : instants_) {
+  for (std::size_t k = 0; k < instants_.size(); ++k) {
+    const double tau = instants_[k];
     plant_->AdvanceTo(tau);
-    if (faults_->Due(n, tau)) SetPatterns();
+    if (faults_->Due(n, tau)) {
+      SetPatterns();
+      AddEdges(instants_);  // the bridge switches where it would not have
+      OrderInstants(k + 1, tau);
+    }
     AtInstant(tau);
     SetVoltages(tau);
   }
@@ -55,6 +60,7 @@ void ContinuousRun::Period(long long n) {
 void ContinuousRun::FillInstants(long long n) {
   instants_.assign(1, 0.0);
   AddInstants(instants_);
+  AddEdges(instants_);
   const double t0 = static_cast<double>(n) * rig_.T;
   const auto at = [&](double t) {
     if (t > t0 + kSameInstant && t < t0 + rig_.T - kSameInstant) instants_.push_back(t - t0);
@@ -65,9 +71,17 @@ void ContinuousRun::FillInstants(long long n) {
   }
   at(rig_.scenario.speed_free_from);
   faults_->Instants(n, instants_);
-  std::sort(instants_.begin(), instants_.end());
+  OrderInstants(0, -1);
+}
+
+void ContinuousRun::OrderInstants(std::size_t from, double after) {
+  std::erase_if(instants_, [&, k = std::size_t{0}](double t) mutable {
+    return k++ >= from && t <= after + kSameInstant;
+  });
+  const auto begin = instants_.begin() + static_cast<std::ptrdiff_t>(from);
+  std::sort(begin, instants_.end());
   const auto same = [](double a, double b) { return b - a <= kSameInstant; };
-  instants_.erase(std::unique(instants_.begin(), instants_.end(), same), instants_.end());
+  instants_.erase(std::unique(begin, instants_.end(), same), instants_.end());
 }
 
 void ContinuousRun::SetPatterns() {

@@ -28,6 +28,8 @@ class ContinuousRun {
 
   /// Local instants [s] of the period at which this fidelity acts besides the common ones.
   virtual void AddInstants(std::vector<double>&) {}
+  /// Local instants [s] at which the bridges switch in this period.
+  virtual void AddEdges(std::vector<double>&) const {}
   /// The plant has reached an instant; faults due there are in.
   virtual void AtInstant(double /*tau*/) {}
   /// Voltages of all coils from tau on.
@@ -45,6 +47,8 @@ class ContinuousRun {
  private:
   void Period(long long n);
   void FillInstants(long long n);
+  /// Those from place `from` on are sorted, each stands once and comes after local time `after` [s].
+  void OrderInstants(std::size_t from, double after);
   void SetPatterns();
 
   std::optional<FaultInjection> faults_;

@@ -1,6 +1,7 @@
 #include "simulation/continuous/reference_engine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulation/continuous/continuous_run.h"
 
@@ -23,6 +24,9 @@ class ReferenceRun : public ContinuousRun {
     next_sample_ = 0;
     peak_ = 0;
     for (int k = 1; k < rig_.samples; ++k) instants.push_back(k * rig_.h);
+  }
+
+  void AddEdges(std::vector<double>& instants) const override {
     for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j)
         for (double t : {voltage_[b.index][static_cast<std::size_t>(j)].t1,
@@ -38,7 +42,7 @@ class ReferenceRun : public ContinuousRun {
     for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         samples_[b.index][k][j] = plant_->Current(b.index, j);
-        peak_ = std::max(peak_, samples_[b.index][k][j]);
+        peak_ = std::max(peak_, std::abs(samples_[b.index][k][j]));
       }
     ++next_sample_;
   }
@@ -54,8 +58,9 @@ class ReferenceRun : public ContinuousRun {
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         const CoilVoltage& v = voltage_[b.index][static_cast<std::size_t>(j)];
         const int piece = tau < v.t1 - kSameInstant ? 0 : (tau < v.t2 - kSameInstant ? 1 : 2);
-        plant_->SetVoltage(b.index, j, v.gain[piece] * rig_.plant.bus.voltage + v.drop[piece],
-                           v.gain[piece] > 0);
+        plant_->SetVoltage(b.index, j,
+                           {v.gain[piece] * rig_.plant.bus.voltage + v.drop[piece],
+                            v.gain[piece] > 0, v.released});
       }
   }
 

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/coil_name.h"
+#include "rig/rig_figures.h"
+
 namespace ambrig {
 
 CommandPlan::CommandPlan(const RigParameters& rig, const Scenario& scenario) {
@@ -39,6 +42,15 @@ CommandPlan::CommandPlan(const RigParameters& rig, const Scenario& scenario) {
       }
     }
   }
+  const AmplifierParameters& a = rig.amplifier;
+  for (std::size_t b = 0; b < rig.bearings.size(); ++b)
+    for (int j = 0; j < rig.bearings[b].coils(); ++j) {
+      const auto at = scenario.start_current.find(CoilName(rig.bearings[b].name, j));
+      if (at == scenario.start_current.end()) continue;
+      // In voltage mode a set-point is a voltage, over kp.
+      const double per_ampere = a.voltage_mode ? CoilResistance(rig.bearings[b]) / a.kp : 1;
+      start.push_back({j, static_cast<int>(b), at->second, per_ampere * at->second});
+    }
   const auto index_of = [&rig](const std::string& name) {
     std::size_t index = 0;
     for (std::size_t k = 0; k < rig.other_controllers.size(); ++k)

@@ -1,6 +1,7 @@
 #pragma once
 /// The commanded signals of a scenario, sampled once on the controller's and the amplifiers'
 /// clocks, so that many runs of one scenario do not evaluate the same sines again.
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,19 @@ struct CommandPlan {
     std::vector<double> values;  // per controller tick or per switching period, from t = 0
   };
   std::vector<Signal> force, reference, current, duty;
+
+  /// A coil that flows `amperes` at t = 0: before that its loop holds it there, whatever is commanded.
+  struct StartCurrent {
+    int index, bearing;  // as of a coil's signal
+    double amperes;
+    double set_point;  // that gives it [A]
+  };
+  std::vector<StartCurrent> start;
+  bool StartsAt(const Signal& coil) const {
+    return std::ranges::any_of(start, [&](const StartCurrent& s) {
+      return s.bearing == coil.bearing && s.index == coil.index;
+    });
+  }
 
   struct Switch {
     long long tick = 0;          // of the controller, from t = 0

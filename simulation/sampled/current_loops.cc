@@ -6,7 +6,7 @@
 
 namespace ambrig {
 
-void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
+void CurrentLoops::Targets(long long n, long long at, std::vector<BearingControl>& control) {
   const bool scenario = source_ == SetPoints::kOfTheScenario;
   target_.resize(control.size());
   for (std::size_t k = 0; k < control.size(); ++k)
@@ -14,6 +14,8 @@ void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
   if (at >= 0 && source_ != SetPoints::kMeasuredWhole)
     for (const CommandPlan::Signal& s : commands_.current)
       target_[AsSize(s.bearing)][s.index] += CommandPlan::At(s, at);
+  for (const CommandPlan::StartCurrent& s : commands_.start)
+    if (n < 0) target_[AsSize(s.bearing)][s.index] = s.set_point;
   for (std::size_t k = 0; scenario && k < control.size(); ++k) control[k].set_point = target_[k];
   for (std::size_t k = 0; k < control.size(); ++k)
     for (int j = 0; j < control[k].coils; ++j)
@@ -22,7 +24,7 @@ void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
 
 void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
   const long long at = n >= 0 ? n : source_ == SetPoints::kOfTheController ? -1 : 0;
-  Targets(at, control);
+  Targets(n, at, control);
   for (std::size_t k = 0; k < control.size(); ++k) {
     BearingControl& c = control[k];
     const Lane& target = target_[k];
@@ -33,9 +35,11 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
   }
   first_period_ = false;
   if (at < 0) return;
-  for (const CommandPlan::Signal& s : commands_.duty)
+  for (const CommandPlan::Signal& s : commands_.duty) {
+    if (n < 0 && commands_.StartsAt(s)) continue;
     control[AsSize(s.bearing)].duty[s.index] =
         std::clamp(CommandPlan::At(s, at), std::min(0.0, duty_min_), 1.0);
+  }
 }
 
 }  // namespace ambrig

@@ -28,7 +28,8 @@ class CurrentLoops {
   void Period(long long n, std::vector<BearingControl>& control);
 
  private:
-  void Targets(long long n, std::vector<BearingControl>& control);
+  /// Of period n, with the scenario's commands of period `at`.
+  void Targets(long long n, long long at, std::vector<BearingControl>& control);
 
   double duty_min_;  // [-]
   const CommandPlan& commands_;

@@ -109,11 +109,12 @@ void SampledDataLoop::MoveEdges(long long n) {
 CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double current) const {
   BridgeImperfection bridge = b.plant->bridge[AsSize(j)];
   bridge.late_edge = b.late_edge[j];
+  bridge.off = bridge.off || control[b.index].disabled[AsSize(j)];
   for (const auto& term : b.plant->voltage[AsSize(j)])
     bridge.voltage_offset +=
         term->Voltage({motion.t, current, plant.bus.voltage, b.true_x - b.plant->offset_x,
                        b.true_y - b.plant->offset_y, &motion});
-  return plant.bridge.Pattern(control[b.index].duty[j], bridge);
+  return plant.bridge.Pattern(control[b.index].duty[j], bridge, current);
 }
 
 void SampledDataLoop::Measure(long long n, SampledBearing& b, const Lane* truth) {

@@ -116,6 +116,7 @@ class SampledDataLoop {
   void AddBearing(std::size_t k, std::size_t first_axis);
   void StartLevitated();
   void StartClamped();
+  void BeginUnderCurrent();  // coils whose currents at t = 0 the scenario gives
   void StartResting();
   void HoldForces(const std::vector<double>& force);
   void FinishStart();

@@ -65,7 +65,13 @@ void SampledDataLoop::StartClamped() {
   PlaceClamped(true_rig, scenario, motion);
   for (const CommandPlan::Signal& s : commands_->current)
     control[static_cast<std::size_t>(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
+  BeginUnderCurrent();
   HoldSetPoints(nominal, control);
+}
+
+void SampledDataLoop::BeginUnderCurrent() {
+  for (const CommandPlan::StartCurrent& s : commands_->start)
+    control[static_cast<std::size_t>(s.bearing)].set_point[s.index] = s.amperes;
 }
 
 void SampledDataLoop::PrepareDriven(CurrentLoops::SetPoints source, double warm_up) {
@@ -77,6 +83,7 @@ void SampledDataLoop::PrepareDriven(CurrentLoops::SetPoints source, double warm_
 }
 
 void SampledDataLoop::StartDriven() {
+  BeginUnderCurrent();
   HoldSetPoints(nominal, control);
   FinishStart();
 }

@@ -11,9 +11,13 @@
 
 namespace ambrig {
 
+namespace {
+bool AnyOf(const std::array<bool, kLanes>& flags) { return flags != std::array<bool, kLanes>{}; }
+}  // namespace
+
 void SwitchingEngine::SetPatterns(BearingRun& b) {
   const BearingControl& c = loop_.control[b.side->index];
-  if (b.only_edge_moves) {
+  if (b.only_edge_moves && !AnyOf(c.disabled)) {
     for (int j = 0; j < c.coils; ++j)
       b.pattern.t2[j] = LateEnd(c.duty[j] * T_, b.side->late_edge[j], 0, T_);
     return;
@@ -23,13 +27,15 @@ void SwitchingEngine::SetPatterns(BearingRun& b) {
     const auto lane = static_cast<std::size_t>(j);
     const BridgeImperfection& bridge = b.plant->bridge[lane];
     b.only_edge_moves = b.only_edge_moves && bridge.dead_time == 0 && bridge.dead_duty == 0 &&
-                        !bridge.off && !bridge.stuck_on && b.plant->voltage[lane].empty();
+                        !bridge.off && !bridge.stuck_on && !c.disabled[lane] &&
+                        b.plant->voltage[lane].empty();
     SetPattern(b, j);
   }
 }
 
 void SwitchingEngine::SetPattern(BearingRun& b, int j) const {
   const CoilVoltage v = loop_.PatternOf(*b.side, j, b.plant->lanes.i[j]);
+  b.plant->lanes.released[static_cast<std::size_t>(j)] = v.released;
   b.pattern.t1[j] = v.t1;
   b.pattern.t2[j] = v.t2;
   for (int q = 0; q < 3; ++q) {
@@ -77,6 +83,7 @@ void SwitchingEngine::RunMagnetics(long long n) {
   while (n >= 0 && next_added_ < added_faults_.size() &&
          added_faults_[next_added_].time < end - kSameTime)
     due.push_back(&added_faults_[next_added_++]);
+  std::ranges::stable_sort(due, {}, &FaultSpec::time);
   // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
   // concerns its own bearing only.
   const bool lockstep = options_.force_general_path || !due.empty() || !plant_.bus.stiff() ||

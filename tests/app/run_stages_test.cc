@@ -78,5 +78,15 @@ TEST(StageFigure, ShowsTheFaultyCoilOrNothing) {
   EXPECT_FALSE(f->traces.empty());
 }
 
+// A clamped shaft has no orbit: its coils have their stages all the same.
+TEST(StageFigure, OfAClampedShaftRunsOverItsCurrents) {
+  RunReportData d = Data({{0.8, "fault", "A3", "open"}});
+  d.bearings[0].x.clear();
+  d.bearings[0].y.clear();
+  d.bearings[0].currents.assign(8, std::vector<double>(1001, 1.5));
+  EXPECT_NEAR(FindStages(d).whole[1], 1.5, 1e-12);
+  EXPECT_TRUE(StageFigure(d, FindStages(d)));
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -135,6 +135,20 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(Catalogue()
                            return name;
                          });
 
+// A law takes turns and reluctances of the plant that others change: the file's order says nothing.
+TEST(Catalogue, TheOrderOfEffectsChangesNothing) {
+  const auto record = [](bool backwards) {
+    RigParameters rig = ReferenceRig();
+    rig = WithEffect(rig, "turn-mismatch", "A.coil1", {{"ratio", 1.4}});
+    rig = WithEffect(rig, "hysteresis", "A", {{"coercive", 0.1}});
+    rig = WithEffect(rig, "amplifier-offset", "A", {{"resistance", 0.1}});
+    rig = WithEffect(rig, "iron-reluctance", "A", {{"path", 0.1}});
+    if (backwards) std::ranges::reverse(rig.effects);
+    return RunText(rig, LevitatedText()).record;
+  };
+  EXPECT_EQ(Change(record(false), record(true)), 0);
+}
+
 TEST(Catalogue, IdsAreUniqueAndFound) {
   std::set<std::string> ids;
   for (const EffectDescription& d : Catalogue()) {

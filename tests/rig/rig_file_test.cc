@@ -76,6 +76,19 @@ TEST(RigFile, ABearingLikeAnotherHasItsValuesAndSpreads) {
   EXPECT_NE(ToleranceOf(own, "bearings.A.gap"), nullptr);
 }
 
+// A spread of a value that the bearing gives itself, in a table of its own, is not the other's.
+TEST(RigFile, ABearingLikeAnotherHasOneSpreadOfEachNumber) {
+  const std::string spread = Replaced(ReferenceRigText(), "sensor = { z = -0.135",
+                                      "sensor = { z = { value = -0.135, sd = 1e-4 }");
+  EXPECT_NE(ToleranceOf(Read(spread), "bearings.A.sensor.z"), nullptr);
+  EXPECT_EQ(ToleranceOf(Read(spread), "bearings.B.sensor.z"), nullptr);
+  const RigParameters own =
+      Read(Replaced(spread, "sensor = { z = 0.145", "sensor = { z = { value = 0.145, sd = 3e-4 }"));
+  const auto count = std::ranges::count(own.tolerances, "bearings.B.sensor.z", &Tolerance::path);
+  EXPECT_EQ(count, 1);
+  EXPECT_EQ(ToleranceOf(own, "bearings.B.sensor.z")->sd, 3e-4);
+}
+
 TEST(RigFile, BearingsComeByKindAndName) {
   const std::string text = ReferenceRigText();
   const RigParameters rig = Read(text);
@@ -185,6 +198,8 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
       StartsWith("rig.toml:57: bearings.A.auxiliary.clearance = 0.0006 m, allowed: smaller"));
   EXPECT_THAT(Message("z = 0.130", "z = -0.120"),
               HasSubstr("bearings.A.z = -0.12 m, allowed: another plane than bearing B"));
+  EXPECT_THAT(Message("\nsensor = { z = 0.145, noise = 2.0e-7 }", ""),
+              HasSubstr("sensor: z = -0.135 m, allowed: another plane than the sensor of bearing"));
   EXPECT_THAT(Message("like = \"A\"", "like = \"C\""),
               HasSubstr("bearings.B.like = \"C\", allowed: a bearing with its own values: A"));
   EXPECT_THAT(

@@ -57,6 +57,17 @@ TEST(ScenarioFile, ClampsHoldTheRotorInsideItsGap) {
               HasSubstr("is no bearing, allowed: A, B, Z"));
 }
 
+TEST(ScenarioFile, ClampedStartsMayBeUnderCurrent) {
+  const std::string clamped = "[start]\nstate = \"clamped\"\n";
+  EXPECT_EQ(ReadWith(clamped + "current = { \"A.coil1\" = 2.0 }\n").start_current.at("A.coil1"), 2);
+  EXPECT_THAT(ScenarioMessage("[start]\ncurrent = { \"A.coil1\" = 2.0 }\n"),
+              HasSubstr("start.current: is only allowed with state = \"clamped\""));
+  EXPECT_THAT(ScenarioMessage(clamped + "current = { \"A.coil9\" = 2.0 }\n"),
+              HasSubstr("is no coil, allowed: those of the rig, \"A.coil1\" for example"));
+  EXPECT_THAT(ScenarioMessage(clamped + "current = { \"A.coil1\" = -1.0 }\n"),
+              HasSubstr("= -1 A, allowed: 0 to 10 A"));
+}
+
 TEST(ScenarioFile, SpeedsRunThroughTheirRows) {
   const Scenario s = ReadWith("[speed]\nprofile = [[0.0, 0.0], [0.2, 100.0]]\nfree_from = 0.3\n");
   EXPECT_NEAR(s.speed.Speed(0.1), 50, 1e-9);

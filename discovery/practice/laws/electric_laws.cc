@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/base/coil_name.h"
 #include "discovery/practice/laws/practice_law.h"
 
 namespace ambrig {
@@ -20,8 +21,8 @@ std::vector<EffectInstance> OffsetOfCurrent(LawSetting s) {
   const BearingParameters* whole = s.rig.Find(s.target);
   if (!whole) return {FormulaAt(s.target, {{"voltage", law}})};
   std::vector<EffectInstance> out;  // each coil's own current
-  for (int j = 1; j <= whole->coils(); ++j)
-    out.push_back(FormulaAt(fmt::format("{}.coil{}", s.target, j), {{"voltage", law}}));
+  for (int j = 0; j < whole->coils(); ++j)
+    out.push_back(FormulaAt(CoilName(s.target, j), {{"voltage", law}}));
   return out;
 }
 

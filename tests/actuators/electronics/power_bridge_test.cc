@@ -46,6 +46,25 @@ TEST(PowerBridge, FourQuadrantsSwingBothWays) {
   EXPECT_NEAR(Mean(PowerBridge(p).Pattern(0.5, {}), 30, 40e-6), 0, 1e-12);
 }
 
+// With all switches open the diodes lead the current back into the bus, whatever its sign and the duty.
+TEST(PowerBridge, AnOpenBridgeActsAgainstTheCurrent) {
+  AmplifierParameters p = Reference();
+  p.quadrants = 4;
+  BridgeImperfection bridge;
+  bridge.off = true;
+  for (const Modulation m : {Modulation::kBiState, Modulation::kTriState, Modulation::kIdeal}) {
+    p.modulation = m;
+    for (const double duty : {0.1, 0.9}) {
+      EXPECT_NEAR(Mean(PowerBridge(p).Pattern(duty, bridge, 2), 30, 40e-6), -31.4, 1e-12);
+      EXPECT_NEAR(Mean(PowerBridge(p).Pattern(duty, bridge, -2), 30, 40e-6), 31.4, 1e-12);
+    }
+  }
+  EXPECT_TRUE(PowerBridge(p).Pattern(0.5, bridge, 2).released);
+  EXPECT_FALSE(PowerBridge(p).Pattern(0.5, {}, 2).released);
+  bridge.stuck_on = true;  // a switch that stays on keeps the coil at the bus
+  EXPECT_FALSE(PowerBridge(p).Pattern(0.5, bridge, 2).released);
+}
+
 TEST(PowerBridge, FaultsOfTheBridge) {
   const AmplifierParameters p = Reference();
   const PowerBridge a(p);

@@ -219,5 +219,23 @@ TEST(CoilProbes, AFalseCurrentMakesThoseOfOtherCoilsSuspect) {
   EXPECT_FALSE(probes.OtherFalseCurrent(3));  // it may truly fail again
 }
 
+// A sensor that three probes found wrong is one; another coil's may fail later.
+TEST(CoilProbes, ASensorThatStaysWrongLeavesOthersTheirFaults) {
+  for (const bool disputed : {false, true}) {
+    CoilProbes probes;
+    probes.GivenUp(3, FaultClass::kCurrentSensor, 0.02);
+    double t = 0.02;
+    while (probes.Due(t) != 3) t += 1e-3;
+    for (int looks = 0; looks < 3; ++looks) {
+      EXPECT_TRUE(probes.OtherFalseCurrent(4)) << looks;
+      while (probes.Due(t) != 3) t += 1e-3;
+      if (disputed) probes.Dispute(3);  // healthy, but to a detector that doubts its model
+      probes.Answer(3, false, t);
+    }
+    EXPECT_EQ(probes.Due(t + 1), -1);
+    EXPECT_EQ(probes.OtherFalseCurrent(4), disputed);
+  }
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 // Positions between readings, sensors that fail, and lines through several sensor planes.
 #include "fdd/measurement/position_monitor.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +35,7 @@ TEST(PositionFollower, FollowsAWhirlToThirdOrder) {
   }
   EXPECT_EQ(m.Recent(0, 0), Whirl(0, 19 * kMonitorStep));
   EXPECT_EQ(m.Recent(1, 2), Whirl(1, 17 * kMonitorStep));
-  EXPECT_EQ(m.TakeNewFault(), -1);
+  EXPECT_THAT(m.TakeNewFaults(), ::testing::IsEmpty());
 }
 
 // With fewer than three readings there is no parabola: the newest one is held.
@@ -66,8 +67,8 @@ TEST(PositionFault, AJumpThatNoForceCouldMakeIsAFault) {
   m.Read(30 * kMonitorStep, {Whirl(0, 30 * kMonitorStep), Whirl(1, 30 * kMonitorStep) + 1.2e-5});
   EXPECT_FALSE(m.faulty(0));
   EXPECT_TRUE(m.faulty(1));
-  EXPECT_EQ(m.TakeNewFault(), 1);
-  EXPECT_EQ(m.TakeNewFault(), -1);  // told once
+  EXPECT_THAT(m.TakeNewFaults(), ::testing::ElementsAre(1));
+  EXPECT_THAT(m.TakeNewFaults(), ::testing::IsEmpty());  // told once
   EXPECT_NEAR(m.Departure(1), 1.2e-5, 1e-6);
   ReadWhirl(m, 31, 60);
   EXPECT_TRUE(m.faulty(1));  // it does not heal by itself
@@ -79,7 +80,17 @@ TEST(PositionFault, WhatAnImpactMayAddIsAllowed) {
   for (int k = 0; k < 30; ++k) m.Read(k * kMonitorStep, {Whirl(0, k * kMonitorStep)});
   m.Read(30 * kMonitorStep, {Whirl(0, 30 * kMonitorStep) + 1.2e-5}, {5e-6});
   EXPECT_FALSE(m.faulty(0));
-  EXPECT_EQ(m.TakeNewFault(), -1);
+  EXPECT_THAT(m.TakeNewFaults(), ::testing::IsEmpty());
+}
+
+// The cable of a plane breaks.
+TEST(PositionFault, TwoSensorsThatFailInOneReadingAreBothTold) {
+  PositionMonitor m(2, 1e-5);
+  ReadWhirl(m, 0, 30);
+  m.Read(30 * kMonitorStep,
+         {1e-4 + Whirl(0, 30 * kMonitorStep), 1e-4 + Whirl(1, 30 * kMonitorStep)});
+  EXPECT_THAT(m.TakeNewFaults(), ::testing::ElementsAre(0, 1));
+  EXPECT_THAT(m.TakeNewFaults(), ::testing::IsEmpty());
 }
 
 // A large step in the first readings is where the rotor stands, not a fault.

@@ -46,6 +46,15 @@ Case Levitated(double duration) {
   return c;
 }
 
+Excitation StepTo(const std::string& coil, double amperes) {
+  Excitation e;
+  e.target = coil;
+  e.port = "current";
+  e.kind = "step";
+  e.amplitude = amperes;
+  return e;
+}
+
 void AddFault(Case& c, const std::string& kind, double time,
               std::map<std::string, double> parameters) {
   c.scenario.faults.push_back({time, "A.coil3", kind, std::move(parameters), "test"});
@@ -142,6 +151,47 @@ INSTANTIATE_TEST_SUITE_P(
       std::erase(name, '-');
       return name;
     });
+
+// Bridges of four quadrants: the diodes of one that is off end a current of either sign, and it stays away until the
+// bridge drives again.
+TEST(ReferenceWitness, ABridgeOfFourQuadrantsThatIsOff) {
+  for (const double before : {1.5, -1.5}) {
+    Case c = Burst();
+    c.rig.amplifier.quadrants = 4;
+    c.scenario.duration = 0.005;
+    c.scenario.record_rate = 25e3;  // means of the periods
+    c.scenario.excitations = {StepTo("A.coil3", before), StepTo("A.coil4", 1.0)};
+    c.scenario.faults = {
+        {kFaultTime, "A.coil3", "amplifier-off", {{"duration", 25 * 40e-6 - 1e-9}}, "test"}};
+    const Record reference = c.Reference();
+    const std::vector<double>& i = reference.Find("A.i3")->samples;
+    const double rate = reference.rate, back = kFaultTime + 25 * 40e-6;
+    const auto at = [&](double t) { return i[static_cast<std::size_t>(std::lround(t * rate))]; };
+    EXPECT_NEAR(at(kFaultTime - 80e-6), before, 0.05);
+    EXPECT_EQ(at(kFaultTime + 400e-6), 0);
+    EXPECT_EQ(at(back - 40e-6), 0);
+    EXPECT_GT(at(back + 1e-3) / before, 0.5);
+    const Difference once = c.Fast(reference, 1), four = c.Fast(reference, 4);
+    EXPECT_LT(once.current, 5e-3) << before;
+    EXPECT_LT(four.current_rms, 0.6 * once.current_rms)
+        << once.current_rms << " " << four.current_rms;
+  }
+}
+
+// A clamped start under a current that is not the commanded one.
+TEST(ReferenceWitness, StartUnderCurrent) {
+  Case c = Burst();
+  c.scenario.duration = 0.004;
+  c.scenario.record_rate = 25e3;
+  c.scenario.excitations = {StepTo("A.coil3", 2.0)};
+  c.scenario.start_current = {{"A.coil3", 0.8}};
+  const Record reference = c.Reference();
+  const std::vector<double>& i = reference.Find("A.i3")->samples;
+  EXPECT_NEAR(i.front(), 0.8, 2e-3);
+  EXPECT_NEAR(i.back(), 2.0, 0.05);
+  const Difference once = c.Fast(reference, 1);
+  EXPECT_LT(once.current, 2e-3);
+}
 
 // A second short on the same coil is a second loop: each carries its own current, 64 and 110 us
 // long.
