@@ -40,7 +40,10 @@ void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
   out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(sizeless));
   Hypothesis h = base.hypothesis;
   for (const EffectInstance& e : out_.adopted) h.AddEffect(e);
-  now = out_.adopted.empty() ? base : FitOn(model_, base, h, out_.effective_sample_size);
+  const FitResult left =
+      out_.adopted.empty() ? base : FitOn(model_, base, h, out_.effective_sample_size);
+  now = left.Stands() ? left : base;
+  if (!left.Stands()) out_.adopted.clear();
   for (std::size_t k = 0; k < out_.adopted.size(); ++k)
     out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
   out_.ladder.push_back({"without an effect of no size", now.ratio_fit, now.ratio_validate});
@@ -72,9 +75,10 @@ double Explainer::GainOfOthers(const FitResult& now, const std::vector<RankedEff
 
 /// Only the best of a round were fitted to the end. `before` lends its sensitivities.
 FitResult Explainer::FittedToTheEnd(const FitResult& before, const RankedEffect& ranked) const {
-  return ranked.fit.jacobian.size() > 0
-             ? ranked.fit
-             : FitOn(model_, before, ranked.fit.hypothesis, out_.effective_sample_size);
+  if (ranked.fit.jacobian.size() > 0) return ranked.fit;
+  const FitResult whole =
+      FitOn(model_, before, ranked.fit.hypothesis, out_.effective_sample_size);
+  return whole.Stands() ? whole : ranked.fit;
 }
 
 void Explainer::NoteRound(const std::vector<RankedEffect>& ranking) {
@@ -107,6 +111,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   NoteRound(ranking);
   bool worth = false;
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
+    if (!r.fit.Stands()) return false;
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
     if (!HasSize(r.fit, last) || IsDetailOf(out_.adopted, FittedEffect(r.fit, last))) return false;
     const double gain = ScoreOf(now) - r.score;
@@ -275,7 +280,10 @@ std::optional<FitResult> Explainer::FitWithout(const FitResult& base, const FitR
       ExplainedShare(brief.ratio_fit, now.ratio_fit) > kShare &&
       ExplainedShare(brief.ratio_validate, now.ratio_validate) > kShare)
     return {};
-  return FitOn(model_, base, brief.converged ? brief.hypothesis : h, out_.effective_sample_size);
+  FitResult fit =
+      FitOn(model_, base, brief.converged ? brief.hypothesis : h, out_.effective_sample_size);
+  if (!fit.Stands()) return {};  // without it the model cannot follow the records at all
+  return fit;
 }
 
 void Explainer::TakeOut(std::size_t adopted, FitResult without, FitResult& now) {

@@ -50,6 +50,9 @@ struct FitResult {
   bool converged = false;
   std::vector<std::string> warnings;  // at a bound, without influence, strongly correlated
   Eigen::MatrixXd jacobian;           // of prediction/floor, a column per free parameter
+
+  /// Whether the model could be followed at all: a rotor that is lost at the start leaves no errors to judge by.
+  bool Stands() const { return !residual.empty(); }
 };
 
 /// A fit that finds no better point says so (`converged` false), it never passes for a result.
