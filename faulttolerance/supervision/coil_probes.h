@@ -35,7 +35,7 @@ class CoilProbes {
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
-  /// witness then only to a detector that does not doubt its model.
+  /// indication then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
   /// Whether another coil of the bearing waits for its probe after a false reading of its current, or
   /// came back from one. Current sensors do not fail one after the other within milliseconds, a

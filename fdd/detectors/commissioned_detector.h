@@ -4,7 +4,7 @@
 ///
 /// A coil's ratio is the largest |c|/band over the windows, band = max(floor, 1.5 times the largest
 /// of commissioning), at least 0.08 below zero, 0.15 for the windings of a thrust side. The coil of the largest ratio is
-/// blamed when it stays above 1 in three periods in a row and a second witness agrees: either c of the on and of the off phase have one
+/// blamed when it stays above 1 in three periods in a row and a second indication agrees: either c of the on and of the off phase have one
 /// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point, or its
 /// reading is zero while the bridge drives.
 ///

@@ -1,5 +1,5 @@
 #pragma once
-/// Two witnesses of contact: one scenario through the switching engine with the rotor of
+/// Two independent models of contact: one scenario through the switching engine with the rotor of
 /// rotor/motion/rotor_model.h (compliant contact) and with that of rotor/contact/ode_rotor.h (rigid
 /// bodies of the Open Dynamics Engine). Magnets, loops, sensors, faults and detection are the same
 /// in both and closed round either rotor.
