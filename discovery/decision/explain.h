@@ -17,7 +17,7 @@
 
 namespace ambrig {
 
-/// Two effects whose records differ little, and the record that would distinguish them.
+/// Two names of the ranking that the records leave open, and the record that would distinguish them.
 struct Confusable {
   std::string first, second, record;
 };
