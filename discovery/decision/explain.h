@@ -40,7 +40,7 @@ struct Explanation {
   std::vector<RankedEffect> second_round;  // of the last round that found anything or nothing
   std::vector<EffectInstance> adopted;     // established, whatever remains
   std::vector<SetMember> set;              // holds the right answer with 95 %
-  // beside what the names of the ranking were judged anew: "eddy-currents at A"; empty: alone
+  // beside what the names of the ranking were judged again: "eddy-currents at A"; empty: alone
   std::vector<std::string> judged_beside;
   // of every further effect adopted, by its name: the same as ranking and set
   std::map<std::string, std::vector<RankedEffect>> beside;

@@ -15,7 +15,7 @@ namespace ambrig {
 struct FitOptions {
   int iterations = 4;  // of each pass
   // Each with a new weight, about the point where the last one ended. With `sensitivities` those of the
-  // rig parameters are taken anew in the second pass, later where a parameter moved by more than 1 sd.
+  // rig parameters are taken again in the second pass, later where a parameter moved by more than 1 sd.
   int passes = 4;
   double trust_region = 10;  // at the start of a pass: how far a step is believed
   double tolerance = 1e-3;   // of the cost: a step that gains less is the last

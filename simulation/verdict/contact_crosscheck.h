@@ -5,7 +5,7 @@
 /// in both and closed round either rotor.
 ///
 /// A third run, the compliant model with another seed of the noise, shows what a difference of
-/// nothing grows to: bouncing is unstable, so paths part after some impacts whoever integrates
+/// nothing grows to: bouncing is unstable, so paths part after some impacts whatever integrates
 /// them. With no noise in the scenario it repeats the first.
 #include <atomic>
 #include <functional>
