@@ -54,7 +54,7 @@ struct Scenario {
   std::string current_transition =
       kDefaultCurrentTransition;       // faulttolerance/supervision/current_transition_policy.h
   bool stiffness_compensation = true;  // of a failed bearing's other negative stiffness
-  std::string retuned_controller;      // designed anew after a redistribution; empty: none
+  std::string retuned_controller;      // designed again after a redistribution; empty: none
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;
   std::map<std::string, double> start_current;  // of a clamped start: by coil, "A.coil1" [A]

@@ -1,6 +1,6 @@
 #pragma once
 /// The report of one run: what happened, and the pictures that show it. Plain data in, one HTML
-/// file out; whoever has a record and its events fills the struct. Everything SI; empty parts are
+/// file out; a caller that has a record and its events fills the struct. Everything SI; empty parts are
 /// left out of the report.
 #include <array>
 #include <filesystem>

@@ -107,7 +107,7 @@ class RotorModel {
   double free_from() const { return free_from_; }
   bool SpeedIsFree(double t) const { return t >= free_from_; }
   bool HasLoads() const { return !loads_.empty(); }
-  // For a second witness of the same rotor (rotor/motion/rotor_stepper.h).
+  // For an independent model of the same rotor (rotor/motion/rotor_stepper.h).
   const std::vector<ExternalLoad>& loads() const { return loads_; }
   const AuxiliaryParameters* axial_stop() const { return has_axial_ ? &axial_ : nullptr; }
   const BaseOnFloor& base() const { return base_; }
