@@ -79,6 +79,7 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
 std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor);
 /// A record that lasts longer than its scenario: of another one, or of a logger that was stopped late.
 void CheckLength(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
+void CheckGaps(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 /// Against the predictions of the other records' scenarios.
 void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    std::vector<GateColumn>& columns, std::vector<DataFault>& out);
