@@ -22,7 +22,7 @@ RigParameters Magnets(int coils) {
           "[amplifier]\nmodulation = \"two-level\"\nbus_voltage = 24.0\n"
           "switching_frequency = 10000.0\nbandwidth = 500.0\nadc_samples_per_period = 18\n"
           "adc_bits = 12\nadc_range = 8.0\ncurrent_noise = 0.001\ni_max = 3.0\n[controller]\n"
-          "kind = \"pid\"\nrate = 5000.0\nkp = 2000.0\nkd = 10.0\nki = 1000.0\n"
+          "kind = \"pid\"\nrate = 5000.0\nkp = 2000.0\nkd = 10.0\nki = 8.0e4\n"
           "derivative_time_constant = 2.0e-4\nf_max = 5.0\nbias_current = 1.0\n[bearings.M]\n"
           "kind = \"opposed\"\ncoils = {}\nangle_deg = 90.0\ngap = {}\ninductance_far = 0.02\n"
           "inductance_near = 0.03\ngap_constant = 0.006\nresistance = 2.0\n"
