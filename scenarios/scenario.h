@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "faulttolerance/supervision/current_transition_policy.h"
@@ -41,6 +42,12 @@ struct Expectation {
   bool any() const {
     return detected_within || classified || touchdown || drop || redistributed || max_orbit ||
            max_false_alarms || rests_within;
+  }
+  /// The first key that only a run with fault detection can meet; empty: none.
+  std::string_view NeedsDetection() const {
+    if (detected_within) return "detected_within";
+    if (classified) return "classified";
+    return redistributed.value_or(false) ? "redistributed" : "";
   }
 };
 

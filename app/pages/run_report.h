@@ -14,7 +14,7 @@ namespace ambrig {
 
 struct ReportEvent {
   double t = 0;  // [s]
-  // fault detected classified redistributed alarm_cleared touchdown lift_off drop
+  // fault detected classified redistributed not_redistributed alarm_cleared touchdown lift_off drop
   std::string kind;
   std::string target;  // "A3"
   std::string text;    // for the timeline: "open coil", "partial short, 48 % of the turns"
