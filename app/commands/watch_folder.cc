@@ -212,7 +212,8 @@ Json FolderWatch::Examine(const Found& file, const Progress& progress) {
     entry["state"] = !state.faults.empty() ? "data" : left.empty() ? "ok" : "left";
     if (entry["state"] == "left" && options_.explain) Explained(text, entry, progress);
   } catch (const InputError& e) {
-    return refuse(e.what());
+    const std::string what = e.what();  // may name the case's line alone
+    return refuse(what.find(file.name) == std::string::npos ? file.name + ": " + what : what);
   }
   return entry;
 }

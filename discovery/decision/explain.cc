@@ -60,6 +60,7 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   out_.effective_sample_size = floor.effective_sample_size;
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
+  if (out_.data.empty()) RequireCountedRows(full_);
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);

@@ -126,13 +126,22 @@ TEST_F(Outputs, FilesOfAHiddenCaseAreMarked) {
     EXPECT_TRUE(ReadText(folder_ / file).starts_with("# made by ambrig hide\n")) << file;
 }
 
-// Readings that never move are left out; where nothing else was measured no agreement is claimed, and no fit begun.
+// Readings that never move are left out; where nothing else was measured there is no answer, least of all agreement.
 TEST_F(Outputs, NothingMeasuredIsNoAgreement) {
-  const Outcome o = Ambrig("compare case.toml --no-blocks");
-  EXPECT_THAT(o.text, ::testing::HasSubstr("nothing is compared: every channel of every record"));
+  for (const char* call : {"compare case.toml --no-blocks", "explain case.toml --candidates 1",
+                           "adopt case.toml sensor-gain -o x.toml"})
+    ExpectRefused(Ambrig(call), "case.toml: every channel of every record was left out");
+}
+
+// A table of which no reading is a number is not in agreement either.
+TEST_F(Outputs, ATableWithoutANumberIsRefused) {
+  Write("table.csv", "x,F\n0,nan\n1e-5,nan\n2e-5,nan\n3e-5,nan\n");
+  Write("t.toml",
+        "rig = \"rig.toml\"\n[[record]]\nkind = \"static\"\ndata = \"table.csv\"\n"
+        "[record.channels]\n\"A.x\" = \"x\"\n\"A.fx\" = \"F\"\n");
+  const Outcome o = Ambrig("compare t.toml");
+  EXPECT_EQ(o.exit, 2) << o.text;
   EXPECT_THAT(o.text, ::testing::Not(::testing::HasSubstr("agree within the noise")));
-  ExpectRefused(Ambrig("adopt case.toml sensor-gain -o x.toml"),
-                "case.toml: every channel of every record was left out");
 }
 
 // Rows without a number are told, of a table as of a record over time.
@@ -141,8 +150,10 @@ TEST_F(Outputs, RowsOfATableWithoutANumberAreTold) {
   Write("t.toml",
         "rig = \"rig.toml\"\n[[record]]\nkind = \"static\"\ndata = \"table.csv\"\n"
         "[record.channels]\n\"A.x\" = \"x\"\n\"A.fx\" = \"F\"\n");
-  const Outcome o = Ambrig("compare t.toml");
+  const Outcome o = Ambrig("compare t.toml --json t.json");
   EXPECT_EQ(o.exit, 0) << o.text;
+  // No record is unseen: its error is unknown, not zero.
+  EXPECT_THAT(ReadText(folder_ / "t.json"), ::testing::HasSubstr("\"ratio_validate\": null"));
   EXPECT_THAT(o.text, ::testing::HasSubstr("table.csv: A.fx: 2 of 4 rows left out (no number)"));
 }
 
