@@ -102,9 +102,8 @@ TEST_F(Csv, ErrorsNameLineAndColumn) {
 }
 
 TEST_F(Csv, TimeThatIsNotUniformIsReportedWithItsRow) {
-  EXPECT_EQ(
-      Error("t,z\n0,1\n0.1,2\n0.3,3\n0.4,4\n"),
-      ": column t: row 4: time 0.3 s is not uniform: step 0.19999999999999998 s, expected 0.1 s");
+  EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.3,3\n0.4,4\n"),
+            ": column t: row 4: time 0.3 s is not uniform: step 0.2 s, expected 0.1 s");
   EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.1,3\n"), ": column t: row 4: time 0.1 s does not increase");
   EXPECT_EQ(Error("t,z\n0,1\n,2\n0.2,3\n"), ": column t: row 3: time nan s is not a number");
   EXPECT_EQ(Error("t,z\n0,1\n"), ": column t: a time column needs at least two rows");
