@@ -228,9 +228,10 @@ std::vector<std::string> FolderWatch::Pass(const Progress& progress,
     const Json entry = Examine(files[k], [&](double f, const std::string& text) {
       progress((static_cast<double>(k) + f) * each, text);
     });
-    Keep(entry);
+    entries_.push_back(entry);
     names.push_back(files[k].name);
     told(entry);
+    journal_->Append(JsonText(entry));  // last: what could not be told is examined again
   }
   return names;
 }
