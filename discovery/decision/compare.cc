@@ -88,6 +88,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   Comparison c;
   if (progress) progress(0.05, "noise floor");
   const std::vector<std::string> lost = model.LimitToHeld(h);
+  RequireCountedRows(model);
   c.unpredictable = FindFloor(model, h).unpredictable;
   std::vector<double> stated;
   for (const Target& t : model.targets()) stated.push_back(t.floor);
@@ -95,7 +96,6 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   model.noise_model = c.noise;
   const NoiseFloor floor = FindFloor(model, h);
   c.data = InspectDataBelow(model, floor.clean, h, stated);
-  if (c.data.empty()) RequireCountedRows(model);
   c.unpredictable.insert(c.unpredictable.end(), floor.unpredictable.begin(),
                          floor.unpredictable.end());
   c.predicted = floor.clean;

@@ -30,6 +30,7 @@ Explanation Explainer::Run() {
   Progress(0.0, "noise floor");
   const Hypothesis nominal = Hypothesis::Base(rig_);
   const std::vector<std::string> lost = full_.LimitToHeld(nominal);
+  RequireCountedRows(full_);
   model_.LimitAs(full_);
   PrepareNoise(nominal);
   const FitResult as_filed = At(nominal);
@@ -60,7 +61,6 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   out_.effective_sample_size = floor.effective_sample_size;
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
-  if (out_.data.empty()) RequireCountedRows(full_);
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);
