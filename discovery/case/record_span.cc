@@ -69,6 +69,12 @@ void CutToScenario(CaseRecord& r, std::vector<std::string>& notes) {
                                 r.data_file, behind));
 }
 
+std::size_t EmptyRows(const CaseRecord& r) {
+  double rows = 0;
+  for (const auto& [from, to] : r.gaps) rows += std::round((to - from) * r.data.rate) - 1;
+  return static_cast<std::size_t>(rows);
+}
+
 void LeaveOutSpans(CaseRecord& r, const std::vector<std::vector<double>>& spans,
                    const TomlTable& t) {
   r.gaps = EmptySpans(r.data);
