@@ -57,9 +57,7 @@ void FillGaps(Record& record, std::vector<double>& t) {
       return std::numeric_limits<double>::quiet_NaN();
     });
   for (std::size_t k = 0; k < steps.size(); ++k)
-    if (steps[k] > 1)
-      record.notes.push_back(fmt::format("{} rows between t = {:.6g} s and {:.6g} s are missing",
-                                         steps[k] - 1, t[k], t[k + 1]));
+    if (steps[k] > 1) record.gaps.emplace_back(t[k], t[k + 1]);
   t = filled(t, [&](std::size_t k, std::size_t n) {
     return t[k] + (t[k + 1] - t[k]) * static_cast<double>(n) / static_cast<double>(steps[k]);
   });

@@ -187,8 +187,8 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
   RejectReused(c, r, t);
   t.RejectUnknownKeys();
   r.data.start += r.time_offset;
-  CutToScenario(r, c.notes);
   LeaveOutSpans(r, left_out, t);
+  CutToScenario(r, c.notes);
   if (r.data.channels.empty())
     t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
   CheckAgainstScenario(r, t);

@@ -109,6 +109,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   while (AdoptBesideShape(now)) continue;
   Backward(base, now);
   RejudgeNames(base, now);
+  DropUnnamed(base, now);
   if (!out_.adopted.empty()) {
     FitPastBursts(now);
     if (PassOverBursts(now)) base = At(base.hypothesis);
@@ -121,7 +122,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.final_fit = now;
   out_.final_ratio_fit = now.ratio_fit;
   out_.final_ratio_validate = now.ratio_validate;
-  out_.warnings = now.warnings;
+  out_.warnings.insert(out_.warnings.end(), now.warnings.begin(), now.warnings.end());
   if (floor_renewed_)
     out_.warnings.push_back(
         "the loop of the model found passes more noise than the rig file's: the noise floor is "
