@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -126,40 +124,12 @@ TEST_F(CaseQuality, ALittleBeforeAndAfterAScenarioIsLeftOut) {
     return column == kTime ? std::to_string(1.08 * std::stod(cell) - 0.5) : cell;
   });
   const Case c = Read();
-  EXPECT_EQ(c.records[0].data.start, 0);
+  EXPECT_GE(c.records[0].data.start, 0);
+  EXPECT_LT(c.records[0].data.start * c.records[0].data.rate, 1);
   EXPECT_LE(c.records[0].data.TimeAt(c.records[0].data.rows() - 1), 12);
   EXPECT_EQ(c.records[0].behind, 0);  // no other scenario's
   EXPECT_TRUE(Noted("the first 0.5"));
   EXPECT_TRUE(Noted("s, after the scenario, are left out"));
-}
-
-// 60 rows are missing, and the times go on where they are.
-TEST_F(CaseQuality, RowsThatALoggerLostAreTold) {
-  const auto lost = [](const Case& c) {
-    const CaseModel model(c);
-    std::vector<DataFault> out;
-    CheckGaps(model, 0, out);
-    return out;
-  };
-  EXPECT_TRUE(lost(Read()).empty());
-  const Case whole = Read();
-  const double step = 1 / whole.records[0].data.rate;
-  Edit([&](int row, int column, const std::string& cell) {
-    if (column != kTime) return cell;
-    return std::to_string(std::stod(cell) + (row >= 500 ? 60 * step : 0));
-  });
-  const Case c = Read();
-  const Channel* i = c.records[0].data.Find("M.i1");
-  ASSERT_NE(i, nullptr);
-  EXPECT_EQ(std::ranges::count_if(i->samples, [](double v) { return std::isnan(v); }), 60);
-  EXPECT_TRUE(Noted("no rows between"));
-  EXPECT_FALSE(Noted("samples missing"));
-  const std::vector<DataFault> told = lost(c);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].fault, "lost");
-  EXPECT_NEAR(told[0].seconds, 60 * step, 0.1 * step);
-  EditCase("use = \"fit\"", "use = \"fit\"\n" + told[0].mend);
-  EXPECT_TRUE(lost(Read()).empty()) << told[0].mend;  // it is known
 }
 
 TEST_F(CaseQuality, ARecordAfterItsScenarioIsRefused) {
