@@ -19,8 +19,9 @@ struct DataFault {
   std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario
   double factor = 1;   // measured over what it should be: unit, sign
   double seconds = 0;  // late (positive), lost, frozen or clipped time
-  std::string with;    // the other column or the scenario that fits
-  std::string mend;    // a line to paste into the record's table of the case file
+  std::string
+      with;  // the other column or the scenario that fits; of a response what is wrong beside its size
+  std::string mend;  // a line to paste into the record's table of the case file
   double probability = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "discovery/data/gate_columns.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -79,6 +81,23 @@ DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const st
   f.fault = fault;
   f.probability = std::clamp(1 - left * left, 0.5, 0.999);
   return f;
+}
+
+std::string LeaveOutLine(const CaseRecord& r, std::size_t first, std::size_t count) {
+  return fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.TimeAt(first) - 0.5 / r.data.rate,
+                     r.data.TimeAt(first + count) + 0.5 / r.data.rate);
+}
+
+void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
+              std::vector<DataFault>& out) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  f.fault = s.value == 0 ? "lost" : "freeze";
+  f.seconds = static_cast<double>(s.count) / r.data.rate;
+  f.mend = LeaveOutLine(r, s.first, s.count - 1);
+  f.probability = 0.99;
+  out.push_back(f);
 }
 
 void TellScenario(DataFault fault, std::vector<DataFault>& out) {

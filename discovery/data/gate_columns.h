@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "discovery/data/data_gate.h"
+#include "discovery/data/held_values.h"
 
 namespace ambrig {
 
@@ -35,6 +36,17 @@ bool BorneOut(const std::vector<GateColumn>& columns, const GateColumn& c);
 /// A fault of a column ("": of all) that is as probable as undoing it leaves little: `left`, a share of the error.
 DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
                        double left);
+
+/// Line of a case file that leaves out `count` samples from `first` on.
+std::string LeaveOutLine(const CaseRecord& r, std::size_t first, std::size_t count);
+
+/// Tells that a column stands still for a stretch ("freeze", or "lost" where it holds 0).
+void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
+              std::vector<DataFault>& out);
+
+/// As CheckHeld, of stretches from the first row on: those of a column that comes late repeat its first value.
+void CheckHeldFromStart(const CaseModel& model, std::size_t record,
+                        std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 
 /// Tells a fault "scenario", in place of those without a scenario that fits which were told of the record before.
 void TellScenario(DataFault fault, std::vector<DataFault>& out);
