@@ -75,6 +75,8 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
   CheckHeldFromStart(model, r, columns, out);
   CheckSpeedTime(model, r, columns, out);
   CheckScenario(model, h, r, columns, out);
+  CheckAngle(model, r, out);
+  CheckCommands(model, h, r, columns, out);
   return out;
 }
 

@@ -48,6 +48,13 @@ void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch
 void CheckHeldFromStart(const CaseModel& model, std::size_t record,
                         std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 
+/// Units, signs and exchanges of the set-points of a held rotor, which its scenario commands and no model predicts.
+void CheckCommands(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                   const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+
+/// The unit and the sign of the measured angle of a prescribed speed.
+void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
+
 /// Tells a fault "scenario", in place of those without a scenario that fits which were told of the record before.
 void TellScenario(DataFault fault, std::vector<DataFault>& out);
 

@@ -44,7 +44,7 @@ struct SpeedFactor {
   double factor = 1, left = 1;  // share of the error
 };
 
-/// The factor that leaves the least: one of a unit, or of a profile that moves any other if it leaves hardly anything.
+/// The factor of a speed or an angle that leaves the least: one of a unit, or of a profile that moves any other if it leaves hardly anything.
 std::optional<SpeedFactor> FactorOfSpeed(const MatchedColumn& c, double before) {
   constexpr double kOfUnit = 0.1, kOfAny = 0.02, kFarLess = 0.3;
   constexpr double kMoving = 0.2;  // of the profile's rms
@@ -133,6 +133,64 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
   }
   f.fault = "scenario";
   TellScenario(f, out);
+}
+
+namespace {
+
+/// An angle that starts again after every turn, in radians, degrees or turns, without its jumps.
+std::vector<double> WithoutTurns(const std::vector<double>& y) {
+  constexpr double kWholeTurn = 0.05, kJump = 0.5;
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  std::vector<double> out = y;
+  for (const double turn : {kTurn, 360.0, 1.0}) {
+    if (std::abs((*high - *low) / turn - 1) > kWholeTurn) continue;
+    for (std::size_t k = 1; k < y.size(); ++k) {
+      const double step = y[k] - y[k - 1];
+      out[k] = out[k - 1] + step - (std::abs(step) > kJump * turn ? std::copysign(turn, step) : 0);
+    }
+  }
+  return out;
+}
+
+/// The measured angle beside that of the profile, both about their means: where an encoder counts from says nothing.
+MatchedColumn AngleColumn(const CaseRecord& r) {
+  MatchedColumn c;
+  const Channel* theta = Find(r.data, {ChannelKind::kAngle});
+  if (!theta || r.scenario.speed_free_from < r.scenario.duration ||
+      !std::ranges::all_of(theta->samples, [](double v) { return std::isfinite(v); }))
+    return c;
+  c.measured = WithoutTurns(theta->samples);
+  c.ok.assign(c.measured.size(), 1);
+  double measured = 0, predicted = 0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    c.predicted.push_back(r.scenario.speed.Angle(r.data.TimeAt(k)));
+    measured += c.measured[k] / static_cast<double>(c.size());
+    predicted += c.predicted[k] / static_cast<double>(c.size());
+  }
+  for (double& v : c.measured) v -= measured;
+  for (double& v : c.predicted) v -= predicted;
+  return c;
+}
+
+}  // namespace
+
+void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
+  constexpr double kLeastAngle = 1, kGrossAngle = 0.3;  // [rad], of the movement
+  const CaseRecord& r = model.data().records[record];
+  // a wrong speed has been told of
+  if (std::ranges::any_of(
+          out, [](const DataFault& f) { return f.channel.empty() || f.channel == "omega"; }))
+    return;
+  const MatchedColumn c = AngleColumn(r);
+  if (c.size() == 0) return;
+  const Match m = MatchOf(c);
+  if (m.predicted_move < kLeastAngle || m.error < kGrossAngle * m.predicted_move) return;
+  const auto found = FactorOfSpeed(c, m.error);
+  if (!found) return;
+  DataFault f = FaultLeaving(r, "theta", found->factor < 0 ? "sign" : "unit", found->left);
+  f.factor = found->factor;
+  f.mend = UnitLine(r, "theta", found->factor);
+  out.push_back(f);
 }
 
 }  // namespace ambrig

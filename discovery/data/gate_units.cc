@@ -219,6 +219,9 @@ std::string UnitLine(const CaseRecord& r, const std::string& channel, double fac
     if (std::abs(right / size - 1) < 1e-6)
       return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}{}\" }}", channel,
                          source.column, prefix, source.si);
+  if (source.si == "rad" && std::abs(right / (kPi / 180) - 1) < 1e-6)
+    return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"deg\" }}", channel,
+                       source.column);
   if (source.si == "rad/s")
     for (const auto& [size, unit] : {std::pair{kRpm, "rpm"}, {kTurn, "Hz"}, {kPi / 180, "deg/s"}})
       if (std::abs(right / size - 1) < 1e-6)
