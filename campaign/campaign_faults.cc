@@ -90,10 +90,10 @@ std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) 
 }
 
 /// The kinds that a coil may have, by the scenario reader's rules.
-CampaignFaultKind ReadKind(const TomlTable& t) {
+CampaignFaultKind ReadKind(const TomlTable& t, const RigParameters& rig) {
   constexpr FaultTarget kCoil[] = {FaultTarget::kCoil};
   CampaignFaultKind k;
-  k.kind = ReadFault(t, FaultKindNames(kCoil), &k.parameters).kind;
+  k.kind = ReadFault(t, FaultKindNames(kCoil), rig, &k.parameters).kind;
   k.label = k.kind;
   for (const auto& [key, value] : k.parameters) k.label += fmt::format(" {}={}", key, value);
   t.RejectUnknownKeys();
@@ -129,7 +129,7 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
   if (t->Bool("healthy", false)) c.sets.push_back({bearings.front(), {}});
   for (const auto& b : bearings)
     for (const auto& coils : SetsOf(*c.rig.Find(b), *t)) c.sets.push_back({b, coils});
-  for (const TomlTable& k : t->Tables("kind")) c.kinds.push_back(ReadKind(k));
+  for (const TomlTable& k : t->Tables("kind")) c.kinds.push_back(ReadKind(k, c.rig));
   const bool healthy =
       std::all_of(c.sets.begin(), c.sets.end(), [](const auto& s) { return s.coils.empty(); });
   if (healthy && !c.kinds.empty())

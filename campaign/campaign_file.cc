@@ -15,6 +15,7 @@
 #include "core/base/toml_checked.h"
 #include "core/math/normal_distribution.h"
 #include "fdd/learning/commissioning_file.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -26,6 +27,21 @@ constexpr int kFileFormat = 2;
 // Plants a worker: with fewer the last ones would keep some workers idle.
 constexpr std::size_t kPlantsOfWorker = 8;
 
+/// Positions other than 0: a row must not state one that its run was never told.
+void CheckPositions(const TomlTable& t, const Campaign& c) {
+  if (c.rig.controller.kind != "pid")
+    t.Fail("positions", fmt::format("other than 0 with kind = \"{}\" in {}, allowed: with a PID, "
+                                    "whose reference response is known",
+                                    c.rig.controller.kind, c.rig.file));
+  for (const FailureSet& set : c.sets) {
+    const BearingParameters& b = *c.rig.Find(set.bearing);
+    if (!HoldsPositions(b))
+      t.Fail("positions", fmt::format("other than 0 at bearing {} of {}, allowed: at bearings of "
+                                      "kind radial with an auxiliary bearing",
+                                      b.name, c.rig.file));
+  }
+}
+
 void ReadOperation(const TomlTable& root, Campaign& c) {
   const auto t = root.Table("operation");
   if (!t) return;
@@ -36,11 +52,7 @@ void ReadOperation(const TomlTable& root, Campaign& c) {
                  c.load_unit == LoadUnit::kNewton ? "N" : "(share of the capacity)");
   c.load_angle = In(*t, "load_angle_deg", -90, -360, 360, "deg") * std::numbers::pi / 180;
   c.positions = List(*t, "positions", {0.0}, 0, 0.9, "(share of the clearance)");
-  if (c.rig.controller.kind != "pid" &&
-      std::any_of(c.positions.begin(), c.positions.end(), [](double p) { return p != 0; }))
-    t->Fail("positions", fmt::format("other than 0 with kind = \"{}\" in {}, allowed: with a PID, "
-                                     "whose reference response is known",
-                                     c.rig.controller.kind, c.rig.file));
+  if (std::ranges::any_of(c.positions, [](double p) { return p != 0; })) CheckPositions(*t, c);
   c.position_angle = In(*t, "position_angle_deg", 0, -360, 360, "deg") * std::numbers::pi / 180;
   t->RejectUnknownKeys();
 }
@@ -138,6 +150,8 @@ std::string ReadScenarios(const TomlTable& root, Campaign& c) {
 }
 
 }  // namespace
+
+bool HoldsPositions(const BearingParameters& b) { return b.auxiliary && b.kind->eight_poles; }
 
 std::size_t Campaign::runs() const {
   return scenarios.size() * cases.size() * phases.size() * std::max<std::size_t>(speeds.size(), 1) *

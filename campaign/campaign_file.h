@@ -61,6 +61,10 @@ struct Campaign {
   std::size_t RunsTogether(std::size_t workers) const;
 };
 
+/// Whether the shaft can be held away from its centre at this bearing by what is known of it: a
+/// share of the clearance needs an auxiliary bearing, the reference the stiffness of eight poles.
+bool HoldsPositions(const BearingParameters& b);
+
 /// @throws InputError "file:line: key = value, allowed ..." for every mistake.
 Campaign ReadCampaign(const std::string& file);
 

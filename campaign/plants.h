@@ -1,12 +1,12 @@
 #pragma once
 /// The plants of a campaign: healthy machines that each have effects which their controller and
-/// their fault detection do not know, and parameters drawn from the sd in the rig file. [plants] of
+/// their fault detection do not know, and parameters sampled from the sd in the rig file. [plants] of
 /// a campaign file; docs/guide/campaign.md explains the keys by example.
 ///
 /// An effect of "low" size has the weak end of its usual range (`ambrig effects`), "high" the
 /// strong end, "typical" their geometric mean; what does not switch it on keeps its default. It
 /// acts on all radial bearings (or those that `bearings` names), on the rig, or on one coil, axis or
-/// plane that is drawn (of the bearings that are named, where it can). A mixture has some effects of
+/// plane that is sampled (of the bearings that are named, where it can). A mixture has some effects of
 /// the list, each between both ends (evenly in the logarithm).
 ///
 /// What happens to a plant between its commissioning and its run, neither of which the detection is

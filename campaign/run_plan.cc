@@ -156,7 +156,8 @@ void RunPlan::AddLoad(PlannedRun& p) const {
 void RunPlan::AddPosition(PlannedRun& p) const {
   const BearingParameters& b = *p.rig.Find(p.bearing);
   const double share = campaign_.positions[p.at.position];
-  if (share == 0 || !b.auxiliary || !b.kind->eight_poles) return;
+  if (share == 0) return;
+  Require(HoldsPositions(b), "a bearing at which the shaft can be held");
   const double rate = p.rig.controller.rate, reach = kPositionReached * campaign_.fault_time;
   Excitation e;
   e.port = "reference";

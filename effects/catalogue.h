@@ -1,4 +1,5 @@
 #pragma once
+/// The catalogue of effects: every law that a rig file may name and that discovery tries.
 #include <string>
 #include <vector>
 

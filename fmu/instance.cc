@@ -139,7 +139,7 @@ void FmuInstance::Happen(const FmuVariable& fault) {
   FaultSpec spec{0, fault.target, kind, {}, fault.name};
   ReadFault(TomlTable::FromText(fmt::format("kind = \"{}\"\n[parameters]\n{}", kind, numbers),
                                 fault.name),
-            kind, &spec.parameters);
+            kind, RigAsSet(), &spec.parameters);
   run_->AddFault(spec);
 }
 

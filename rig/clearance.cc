@@ -12,8 +12,9 @@ double ClearanceOf(const BearingParameters& b) {
   return b.auxiliary ? b.auxiliary->clearance : 0.5 * GapOf(b);
 }
 
-bool InPole(const BearingParameters& b, double x, double y) {
-  const double gap = GapOf(b);
+bool InPole(const BearingParameters& b, double x, double y) { return InPole(b, GapOf(b), x, y); }
+
+bool InPole(const BearingParameters& b, double gap, double x, double y) {
   if (b.kind->two_axes) return std::hypot(x, y) >= gap;
   // one magnet alone: free on the other side
   return x >= gap || (b.coils() > 1 && -x >= gap);

@@ -11,5 +11,7 @@ double ClearanceOf(const BearingParameters& b);
 
 /// Whether a shaft at (x, y) [m] would stand in a pole; y is 0 of a bearing with one axis.
 bool InPole(const BearingParameters& b, double x, double y);
+/// The same with its poles at `gap` [m] from a centred rotor.
+bool InPole(const BearingParameters& b, double gap, double x, double y);
 
 }  // namespace ambrig

@@ -1,5 +1,5 @@
 #pragma once
-/// What the drawing says: all that controllers, detectors and the supervisor may know of a rig. The
+/// The nominal values: all that controllers, detectors and the supervisor may know of a rig. The
 /// calibrated values of the tolerances are not in it.
 #include <memory>
 

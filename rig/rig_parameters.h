@@ -1,6 +1,6 @@
 #pragma once
 /// The parameters of a rig as its file gives them, and the way to each number by its path in
-/// rig.toml. A file may hold two values of one number: the drawing's, which NominalRig
+/// rig.toml. A file may hold two values of one number: the nominal one, which NominalRig
 /// (rig/nominal_rig.h) hands to controllers and detectors, and the calibrated one of its tolerance,
 /// which TrueRig (rig/true_rig.h) hands to the plant.
 #include <any>

@@ -11,9 +11,10 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "rig/bearing_kinds/bearing_kind.h"
-#include "rig/rig_checks.h"
 #include "rig/rig_figures.h"
+#include "scenarios/expect_file.h"
 #include "scenarios/faults/fault_file.h"
+#include "scenarios/load_file.h"
 #include "scenarios/start_file.h"
 
 namespace ambrig {
@@ -27,7 +28,7 @@ std::string Join(const std::vector<std::string>& names) {
 }
 
 struct Targets {
-  std::vector<std::string> axes, coils, planes, bearings, load_planes;
+  std::vector<std::string> axes, coils;
 };
 
 Targets TargetsOfRig(const RigParameters& rig) {
@@ -35,11 +36,7 @@ Targets TargetsOfRig(const RigParameters& rig) {
   for (const auto& b : rig.bearings) {
     for (const auto& a : b.Axes()) t.axes.push_back(a);
     for (int j = 0; j < b.coils(); ++j) t.coils.push_back(CoilName(b.name, j));
-    if (!b.kind->axial) t.planes.push_back(b.name);
-    t.bearings.push_back(b.name);
   }
-  t.load_planes = t.bearings;
-  for (const auto& s : rig.stations) t.load_planes.push_back(s.name);
   return t;
 }
 
@@ -86,46 +83,6 @@ void ReadExcitations(const TomlTable& root, const Targets& targets, Scenario& s)
   }
 }
 
-void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameters& rig,
-               Scenario& s) {
-  for (const TomlTable& t : root.Tables("load")) {
-    LoadSpec l;
-    if (t.Has("plane") == t.Has("z")) t.Fail("plane", "allowed: either plane = \"A\" or z = m");
-    if (t.Has("plane")) {
-      const std::string plane = t.String("plane");
-      const BearingParameters* b = rig.Find(plane);
-      const ShaftPlane* station = rig.FindStation(plane);
-      if (!b && !station)
-        t.Fail("plane", fmt::format("= \"{}\", allowed: {}", plane, Join(targets.load_planes)));
-      l.z = b ? b->z : station->z;
-      l.axial = b && b->kind->axial;
-    } else {
-      const auto [lo, hi] = ShaftExtent(rig);
-      l.z = Within(t, "z", kRequired,
-                   {"m", lo + rig.z_origin, hi + rig.z_origin, "a place on the shaft"}) -
-            rig.z_origin;
-    }
-    constexpr Range kForce{"N", -1e8, 1e8, "force of a load"};
-    const auto f = t.IsNumber("force")
-                       ? std::vector<double>{Within(t, "force", kRequired, kForce)}
-                       : (t.Has("force") ? AllWithin(t, "force", {}, kForce) : t.Numbers("force"));
-    if (f.empty() || f.size() > 3) t.Fail("force", "allowed: [fx, fy] or [fx, fy, fz] in N");
-    if (l.axial && f.size() == 1) {
-      l.fz = f[0];
-    } else {
-      l.fx = f[0];
-      l.fy = f.size() > 1 ? f[1] : 0;
-      l.fz = f.size() > 2 ? f[2] : 0;
-    }
-    l.start = Within(t, "start", 0, kScenarioTime);
-    l.stop = Within(t, "stop", s.duration, kScenarioTime);
-    if (!(l.stop > l.start))
-      t.Fail("stop", fmt::format("= {} s, allowed: later than start = {} s", l.stop, l.start));
-    t.RejectUnknownKeys();
-    s.loads.push_back(l);
-  }
-}
-
 /// Two states of one part at one instant: a coil with its bridge, or one sensor.
 bool Contradicts(const FaultSpec& a, const FaultSpec& b) {
   const bool sensors = a.kind.ends_with("-sensor") == b.kind.ends_with("-sensor");
@@ -134,7 +91,8 @@ bool Contradicts(const FaultSpec& a, const FaultSpec& b) {
 
 constexpr FaultTarget kAll[] = {FaultTarget::kCoil, FaultTarget::kAxis, FaultTarget::kRig};
 
-void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
+void ReadFaults(const TomlTable& root, const Targets& targets, const RigParameters& rig,
+                Scenario& s) {
   for (const TomlTable& t : root.Tables("fault")) {
     FaultSpec f;
     f.where = t.Where();
@@ -142,7 +100,7 @@ void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
     if (!(f.time >= 0 && f.time < s.duration))
       t.Fail("time",
              fmt::format("= {} s, allowed: 0 to below the duration of {} s", f.time, s.duration));
-    const Fault& kind = ReadFault(t, FaultKindNames(kAll), &f.parameters);
+    const Fault& kind = ReadFault(t, FaultKindNames(kAll), rig, &f.parameters);
     f.kind = kind.kind;
     f.target = t.String("target", kind.target == FaultTarget::kRig ? "rig" : "");
     const std::vector<std::string> allowed = kind.target == FaultTarget::kCoil ? targets.coils
@@ -202,26 +160,6 @@ void ReadRetunedController(const TomlTable& root, const RigParameters& rig, Scen
                   s.retuned_controller, allowed.empty() ? "it has none" : Join(allowed)));
 }
 
-void ReadExpect(const TomlTable& root, Scenario& s) {
-  const auto t = root.Table("expect");
-  if (!t) return;
-  const auto number = [&](const char* key, std::optional<double>& out, const Range& range) {
-    if (t->Has(key)) out = Within(*t, key, kRequired, range);
-  };
-  const auto flag = [&](const char* key, std::optional<bool>& out) {
-    if (t->Has(key)) out = t->Bool(key, false);
-  };
-  number("detected_within", s.expect.detected_within, {"s", 0, 1e5, "delay of the detection"});
-  number("max_orbit", s.expect.max_orbit, {"m", 0, 1, "largest orbit"});
-  number("max_false_alarms", s.expect.max_false_alarms, {"-", 0, 1e9, "alarms without a fault"});
-  number("rests_within", s.expect.rests_within, {"m", 0, 1, "orbit at the end"});
-  flag("touchdown", s.expect.touchdown);
-  flag("drop", s.expect.drop);
-  flag("redistributed", s.expect.redistributed);
-  if (t->Has("classified")) s.expect.classified = t->Choice("classified", "", FaultClassNames());
-  t->RejectUnknownKeys();
-}
-
 void CheckRate(const TomlTable& root, const RigParameters& rig, double rate) {
   const double pwm = rig.amplifier.switching_frequency, k = rig.amplifier.adc_samples_per_period;
   const double slow = pwm / rate, fast = rate / pwm;
@@ -257,10 +195,10 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   ReadStart(root, rig, s);
   ReadSpeed(root, s);
   ReadExcitations(root, targets, s);
-  ReadLoads(root, targets, rig, s);
-  ReadFaults(root, targets, s);
+  ReadLoads(root, rig, s);
+  ReadFaults(root, targets, rig, s);
   ReadSwitches(root, rig, s);
-  ReadExpect(root, s);
+  ReadExpect(root, rig, s);
   root.RejectUnknownKeys();
   return s;
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "faulttolerance/supervision/current_transition_policy.h"
@@ -42,6 +43,12 @@ struct Expectation {
     return detected_within || classified || touchdown || drop || redistributed || max_orbit ||
            max_false_alarms || rests_within;
   }
+  /// The first key that only a run with fault detection can meet; empty: none.
+  std::string_view NeedsDetection() const {
+    if (detected_within) return "detected_within";
+    if (classified) return "classified";
+    return redistributed.value_or(false) ? "redistributed" : "";
+  }
 };
 
 struct Scenario {
@@ -54,7 +61,7 @@ struct Scenario {
   std::string current_transition =
       kDefaultCurrentTransition;       // faulttolerance/supervision/current_transition_policy.h
   bool stiffness_compensation = true;  // of a failed bearing's other negative stiffness
-  std::string retuned_controller;      // designed anew after a redistribution; empty: none
+  std::string retuned_controller;      // designed again after a redistribution; empty: none
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;
   std::map<std::string, double> start_current;  // of a clamped start: by coil, "A.coil1" [A]

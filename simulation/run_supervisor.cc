@@ -1,14 +1,13 @@
 #include "simulation/run_supervisor.h"
 
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "scenarios/expect_file.h"
 
 namespace ambrig {
 
 std::unique_ptr<FaultSupervisor> SupervisorOf(const RigParameters& rig, const Scenario& scenario,
                                               bool traces) {
-  const bool bridges = rig.amplifier.modulation == Modulation::kBiState;
-  if (!scenario.fault_tolerant || scenario.start == StartState::kClamped || !bridges)
-    return nullptr;
+  if (!scenario.fault_tolerant || !WhyUnwatched(rig, scenario).empty()) return nullptr;
   FaultSupervisorOptions watch;
   watch.slopes = traces;
   watch.redistribution = scenario.redistribution;

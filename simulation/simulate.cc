@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "scenarios/expect_file.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"
 #include "simulation/run_supervisor.h"
@@ -23,6 +24,43 @@ void CheckControlled(const RigParameters& rig, const Scenario& scenario) {
       "{}: the rotor is free, but {} has no [controller], allowed: one, or [start] state = "
       "\"clamped\"",
       scenario.file.empty() ? scenario.name : scenario.file, rig.file));
+}
+
+const char* NameOf(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::kSwitching:
+      return "switching";
+    case Fidelity::kReference:
+      return "reference";
+    case Fidelity::kAveraged:
+      return "averaged";
+  }
+  return "";
+}
+
+/// As WhyUnwatched, also for fidelities that have no supervisor.
+std::string WhyUnwatched(const RigParameters& rig, const Scenario& scenario, Fidelity fidelity) {
+  const std::string why = WhyUnwatched(rig, scenario);
+  if (!why.empty() || fidelity == Fidelity::kSwitching) return why;
+  return fmt::format("--fidelity {} has none", NameOf(fidelity));
+}
+
+/// The reader of the scenario has asked already, without the fidelity.
+void CheckWatched(const Scenario& scenario, const std::string& why_unwatched) {
+  const std::string_view key = scenario.expect.NeedsDetection();
+  if (!scenario.fault_tolerant || key.empty() || why_unwatched.empty()) return;
+  throw InputError(fmt::format(
+      "{}: expect.{} asks for fault detection, which this run does not have: {}; allowed: "
+      "--fidelity switching of a scenario that is watched, or without it",
+      scenario.file.empty() ? scenario.name : scenario.file, key, why_unwatched));
+}
+
+/// Of a run that was to be watched; nobody misses a watch over coils that are held still and healthy.
+void NoteUnwatched(const Scenario& scenario, const std::string& why_unwatched, RunResult& result) {
+  const bool held = scenario.start == StartState::kClamped && scenario.faults.empty();
+  if (why_unwatched.empty() || !scenario.fault_tolerant || held) return;
+  result.notes.push_back(fmt::format(
+      "no fault detection in this run, so nothing is done about faults: {}", why_unwatched));
 }
 
 RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
@@ -55,8 +93,7 @@ RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario,
     throw NoSolution(fmt::format(
         "{}: the {} equations of this rig and scenario could not be integrated ({}); allowed: "
         "--fidelity switching, or numbers less extreme",
-        scenario.file, options.fidelity == Fidelity::kReference ? "reference" : "averaged",
-        e.what()));
+        scenario.file, NameOf(options.fidelity), e.what()));
   }
 }
 
@@ -72,6 +109,8 @@ Fidelity FidelityByName(const std::string& name) {
 RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
                    const SimulateOptions& options) {
   CheckControlled(rig, scenario);
+  const std::string why_unwatched = WhyUnwatched(rig, scenario, options.fidelity);
+  CheckWatched(scenario, why_unwatched);
   const auto begin = std::chrono::steady_clock::now();
   RunResult result;
   switch (options.fidelity) {
@@ -89,6 +128,7 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
   ScoreDetection(scenario, result);
   NoteStuckSwitches(rig, scenario, result);
+  NoteUnwatched(scenario, why_unwatched, result);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;

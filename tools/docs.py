@@ -11,12 +11,16 @@ A page says how a block of it was made:
 folder that sees the project's folders scenarios, examples and tools, and `ambrig`. Lines that name
 a time of computing are left out. Pictures (docs/figures) are listed in docs/figures/sources.txt.
 
+A page names tests as the source of a figure, `test_FOLDER --gtest_filter=PATTERN`: --check looks in tests/FOLDER
+whether there are such tests, because a filter that matches none exits with 0.
+
   tools/docs.py build/release/ambrig              makes every block and picture (target `docs`)
   tools/docs.py build/release/ambrig --check      compares the cheap ones (ctest docs_blocks)
   tools/docs.py build/release/ambrig --check --dear     all of them (nightly)
 """
 import argparse
 import difflib
+import fnmatch
 import os
 import pathlib
 import re
@@ -28,6 +32,9 @@ import tempfile
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r"(<!-- (dear )?output of: (.+?) -->\n)(.*?)(<!-- end of output -->)", re.DOTALL)
 TIMED = re.compile(r"computed at|\d simulations? in \d|^\s*written")
+FILTER = re.compile(r"test_(\w+) --gtest_filter=(?:'([^']*)'|([^\s`]+))")
+TEST = re.compile(r"^\s*(?:TYPED_)?TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
+INSTANCE = re.compile(r"INSTANTIATE_(?:TYPED_)?TEST_SUITE_P\(\s*(\w+)\s*,\s*(\w+)\s*,")
 SOURCES = PROJECT / "docs/figures/sources.txt"
 
 
@@ -111,6 +118,31 @@ def make_pictures(ambrig, root):
         print(f"docs: docs/figures/{picture} made anew")
 
 
+def pages():
+    return [PROJECT / "README.md", PROJECT / "CONTRIBUTING.md", *sorted((PROJECT / "docs").rglob("*.md"))]
+
+
+def tests_of(folder):
+    """Names of the tests of tests/FOLDER as googletest lists them; a parameter counts as its first."""
+    text = "\n".join(file.read_text() for file in sorted((PROJECT / "tests" / folder).rglob("*.cc")))
+    names = [f"{suite}.{name}" for suite, name in TEST.findall(text)]
+    with_parameter = {suite: prefix for prefix, suite in INSTANCE.findall(text)}
+    return [f"{with_parameter[name.split('.')[0]]}/{name}/0" if name.split(".")[0] in with_parameter else name
+            for name in names]
+
+
+def check_filters():
+    """Whether every pattern of every filter that a page names has a test."""
+    right = True
+    for page in pages():
+        for folder, quoted, plain in FILTER.findall(page.read_text()):
+            for pattern in (quoted or plain).split("-")[0].split(":"):
+                if not any(fnmatch.fnmatchcase(name, pattern) for name in tests_of(folder)):
+                    print(f"{page.relative_to(PROJECT)}: test_{folder} has no test {pattern}")
+                    right = False
+    return right
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -119,9 +151,9 @@ def main():
     parser.add_argument("--dear", action="store_true", help="with --check: the long ones too")
     parser.add_argument("--only", default="", help="pages whose name holds this")
     options = parser.parse_args()
-    same, made = check_pictures(), 0
+    same, made = check_pictures() & check_filters(), 0
     with tempfile.TemporaryDirectory(prefix="ambrig_docs_") as root:
-        for page in [PROJECT / "README.md", *sorted((PROJECT / "docs").rglob("*.md"))]:
+        for page in pages():
             if options.only in page.name:
                 right, count = check_page(page, options.ambrig, root, options)
                 same, made = same and right, made + count

@@ -62,7 +62,7 @@ def fault_value(rng, allowed):
     return max(lo + 1e-6, min(anywhere(rng, lo, min(hi, 1e3)), hi * (1 - 1e-6)))
 
 
-def draw_fault(rng, parts, faults, duration):
+def draw_fault(rng, rig, parts, faults, duration):
     kind = rng.choice(sorted(faults))
     fault = {"time": rng.uniform(0, duration), "kind": kind, "parameters": {}}
     if kind != "bus-sag":
@@ -76,7 +76,12 @@ def draw_fault(rng, parts, faults, duration):
         keys = rng.choice([[], ["duration"]])
     for key in keys:
         value = fault_value(rng, faults[kind][key])
-        fault["parameters"][key] = value * duration / 1e3 if key == "duration" else value
+        if key == "duration":
+            value *= duration / 1e3
+        if key == "voltage":  # a sag is below the rig's bus
+            bus = rig["amplifier"]["bus_voltage"]
+            value = min(value, 0.99 * (bus["value"] if isinstance(bus, dict) else bus))
+        fault["parameters"][key] = value
     if not fault["parameters"]:
         fault.pop("parameters")
     return fault
@@ -144,7 +149,7 @@ def draw_scenario(rng, rig, parts, faults, far, fidelity):
         scenario["excitation"] = [draw_excitation(rng, parts, state, pwm, duration)]
     count = rng.choice([0, 1, 1, 2, 3])
     if count:
-        scenario["fault"] = [draw_fault(rng, parts, faults, duration) for _ in range(count)]
+        scenario["fault"] = [draw_fault(rng, rig, parts, faults, duration) for _ in range(count)]
     return scenario
 
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The magnetic circuit of one bearing in continuous time, for the reference and averaged engines.
-/// Written on its own from base_model.md, as a witness for actuators/magnetics/stator_lanes:
+/// Written on its own from base_model.md, as a reference for actuators/magnetics/stator_lanes:
 /// windings on poles, whatever they are driven by.
 ///
 ///   pole p:    φ_p R_p(g_p) = Σ_w n_w i_w - U,  Σ φ_p = 0 (floating rotor) or U = 0   [Wb]

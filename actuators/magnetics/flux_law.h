@@ -1,6 +1,7 @@
 #pragma once
 /// Seam for iron that is not ideal: the extra MMF that a pole's iron needs besides its gap,
-/// all lanes of a bearing in one call. The base rig has none (ideal iron, fast path); effects
+/// all lanes of a bearing in one call. A lane is a coil: its pole, or of a network of poles all those
+/// that the coil links, as one with their mean flux. The base rig has none (ideal iron, fast path); effects
 /// implement it (eddy currents, saturation, hysteresis).
 ///
 /// Within one step of h seconds the flux of a lane runs linearly from its committed value to φ.

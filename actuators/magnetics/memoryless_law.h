@@ -1,5 +1,5 @@
 #pragma once
-/// A law of the iron whose drop hangs on the present flux alone: a flux that has stood for ever
+/// A law of the iron whose drop depends on the present flux alone: a flux that has stood for ever
 /// drops what it drops now, and there is nothing to remember.
 #include "actuators/magnetics/flux_law.h"
 

@@ -61,7 +61,7 @@ class OperatingPoint {
   std::shared_ptr<Model> model_;
 };
 
-/// Of a rig file: calibrated values in the plant, those of the drawing in the controller.
+/// Of a rig file: calibrated values in the plant, nominal ones in the controller.
 OperatingPoint FindOperatingPoint(const RigParameters& rig);
 
 }  // namespace ambrig

@@ -97,7 +97,7 @@ struct Mark {
 /// Marks outside `range` (of x, as drawn) are left out.
 void AddMarks(Figure& figure, std::span<const Mark> marks, std::array<double, 2> range);
 
-/// "x", "x2", ... and "y", "y2", ... of a panel, for whoever adds a trace by hand.
+/// "x", "x2", ... and "y", "y2", ... of a panel, for code that adds a trace by hand.
 std::string XRef(int panel);
 std::string YRef(int panel);
 /// Rounded for the page: a file of shortest decimals instead of 17 digits. NaN becomes null.

@@ -95,7 +95,7 @@ RunStages FindStages(const RunReportData& data) {
     }
     if (e.kind == "fault") s.coils.insert(e.target);
     const bool reaction =
-        e.kind == "detected" || e.kind == "classified" || e.kind == "redistributed";
+        e.kind == "detected" || e.kind == "classified" || e.kind.ends_with("redistributed");
     // Later faults have reactions of their own; the window is for the first.
     if (reaction && s.fault && e.t >= *s.fault && e.t < *s.fault + 0.05) s.reaction = e.t;
   }
@@ -107,9 +107,9 @@ RunStages FindStages(const RunReportData& data) {
 
 std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor) {
   static const std::map<std::string, const char*> kColors = {
-      {"fault", "@red"},           {"detected", "@orange"},   {"classified", "@purple"},
-      {"redistributed", "@green"}, {"touchdown", "@red"},     {"drop", "@red"},
-      {"lift_off", "@sky"},        {"alarm_cleared", "@gray"}};
+      {"fault", "@red"},           {"detected", "@orange"},    {"classified", "@purple"},
+      {"redistributed", "@green"}, {"touchdown", "@red"},      {"drop", "@red"},
+      {"lift_off", "@sky"},        {"alarm_cleared", "@gray"}, {"not_redistributed", "@red"}};
   constexpr std::size_t kContactsMarked = 6;  // the lines of a bouncing rotor would cover its curve
   std::vector<Mark> marks;
   std::size_t contacts = 0, again = 0;

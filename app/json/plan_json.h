@@ -1,4 +1,5 @@
 #pragma once
+/// JSON of the next record; schemas/plan-1.json.
 #include <nlohmann/json.hpp>
 
 #include "discovery/plan/plan.h"

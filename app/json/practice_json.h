@@ -1,4 +1,5 @@
 #pragma once
+/// JSON of practice cases: journal and summary; schemas/practice-1.json.
 #include <nlohmann/json.hpp>
 
 #include "discovery/practice/practice_result.h"

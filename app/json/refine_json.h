@@ -1,4 +1,5 @@
 #pragma once
+/// JSON of the shape of a law; schemas/refine-1.json.
 #include <nlohmann/json.hpp>
 
 #include "discovery/shape/refine.h"

@@ -22,7 +22,7 @@ struct RigDifference {
 };
 
 /// Only what differs, in the order of the files: what simulates (the calibrated value where there is
-/// one, else the drawing's), tolerances, bearings and effects.
+/// one, else the nominal ones), tolerances, bearings and effects.
 std::vector<RigDifference> RigDifferences(const RigParameters& a, const RigParameters& b);
 
 }  // namespace ambrig

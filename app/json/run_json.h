@@ -1,4 +1,5 @@
 #pragma once
+/// JSON of one run; schemas/run-1.json.
 #include <nlohmann/json.hpp>
 
 #include "analysis/dropped_modes.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// Two witnesses of contact as JSON and as one HTML page (simulation/verdict/contact_crosscheck.h).
+/// Two independent models of contact as JSON and as one HTML page (simulation/verdict/contact_crosscheck.h).
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

@@ -30,7 +30,8 @@ void AddTimeline(HtmlReport& report, const RunReportData& data, const RunStages&
   std::ranges::stable_sort(events, {}, &ReportEvent::t);
   std::vector<std::vector<Cell>> rows;
   for (const ReportEvent& e : events) {
-    const bool bad = e.kind == "fault" || e.kind == "touchdown" || e.kind == "drop";
+    const bool bad = e.kind == "fault" || e.kind == "not_redistributed" || e.kind == "touchdown" ||
+                     e.kind == "drop";
     const bool good = e.kind == "redistributed" || e.kind == "lift_off";
     std::string kind = e.kind;
     std::ranges::replace(kind, '_', ' ');

@@ -1,6 +1,6 @@
 #pragma once
 /// The report of one run: what happened, and the pictures that show it. Plain data in, one HTML
-/// file out; whoever has a record and its events fills the struct. Everything SI; empty parts are
+/// file out; a caller that has a record and its events fills the struct. Everything SI; empty parts are
 /// left out of the report.
 #include <array>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace ambrig {
 
 struct ReportEvent {
   double t = 0;  // [s]
-  // fault detected classified redistributed alarm_cleared touchdown lift_off drop
+  // fault detected classified redistributed not_redistributed alarm_cleared touchdown lift_off drop
   std::string kind;
   std::string target;  // "A3"
   std::string text;    // for the timeline: "open coil", "partial short, 48 % of the turns"

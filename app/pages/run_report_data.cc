@@ -192,6 +192,10 @@ std::string EventText(const RunEvent& e) {
   if (e.kind == "redistributed" && text == "linearised") text += " (holds near zero force)";
   if (e.kind == "redistributed" && text == "linearised about the load")
     text = "linearised (holds near the weight)";
+  if (e.kind == "not_redistributed" && text == "none")
+    text += " (no currents of the coils that are left give the forces)";
+  if (e.kind == "not_redistributed" && text == "own set-points")
+    text += " (the controller commands currents itself)";
   if (e.kind == "doubtful") text += ": gross faults only";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);

@@ -1,7 +1,8 @@
 #pragma once
-/// The three kinds of failure (docs/architecture.md): the user's mistake is an InputError with one
-/// line of text; the caller's mistake is a std::logic_error from Require; a numerical outcome is a
-/// result struct and never an exception.
+/// Kinds of failure (CONTRIBUTING.md, House rules): a user's mistake is an InputError with one line
+/// of text; a caller's mistake is a std::logic_error from Require; equations without a solution
+/// within the tolerances are a NoSolution (core/math/no_solution.h); Ctrl-C is Interrupted. A search
+/// or a fit that finds nothing better returns a result that says so.
 #include <source_location>
 #include <stdexcept>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of a parameter struct by their keys, for whoever walks tables of several types.
+/// Numbers of a parameter struct by their keys, for code that walks tables of several types.
 #include <functional>
 #include <string_view>
 

@@ -6,8 +6,8 @@ namespace ambrig {
 
 struct RunEvent {
   double t = 0;  // [s]
-  // fault | detected | classified | redistributed | retuned | not_retuned | alarm_cleared | touchdown |
-  // lift_off | drop ...
+  // fault | detected | classified | redistributed | not_redistributed | retuned | not_retuned |
+  // alarm_cleared | touchdown | lift_off | drop ...
   std::string kind;
   std::string target;       // "A.coil3", "A"
   std::string fault_class;  // "open", ...

@@ -9,6 +9,7 @@
 #include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "core/record/text_cells.h"
+#include "core/record/time_gaps.h"
 
 namespace ambrig {
 
@@ -79,6 +80,7 @@ void TakeTimeChannel(Record& record, const std::string& where, std::size_t heade
     for (double& t : time.samples) t *= factor;
   }
   if (record.rate != 0 && time.samples.size() < 2) return;
+  if (record.rate == 0) FillGaps(record, time.samples);
   const TimeBase base = UniformTimeBase(time.samples, where + ": column " + time.name, header_rows);
   if (record.rate == 0) {
     record.rate = base.rate;

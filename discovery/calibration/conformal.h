@@ -4,7 +4,7 @@
 ///   s_i = 1 - p(right answer)
 /// and a name e of score s_e is in the set of level 95 % when
 ///   (1 + #{s_i >= s_e})/(n + 1) > 0.05
-/// It holds for cases that are drawn like the practice cases.
+/// It holds for cases that are sampled like the practice cases.
 #include <vector>
 
 namespace ambrig {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "core/base/coil_name.h"
 #include "core/base/counted.h"
@@ -16,6 +18,7 @@
 #include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
 #include "discovery/case/case_file.h"
+#include "discovery/case/record_span.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 
@@ -40,7 +43,8 @@ void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
   if (r.data.rows() < 8)
     t.Fail("data", fmt::format("has {}, allowed: at least 8", Counted(r.data.rows(), "row")));
   if (r.data.start < -1e-9)
-    t.Fail("data", fmt::format("starts at {} s, before the scenario", r.data.start));
+    t.Fail("data", fmt::format("ends at {:.6g} s, before the scenario begins",
+                               r.data.TimeAt(r.data.rows() - 1)));
 }
 
 /// Whether something moves this coil's current in a clamped record: more than one constant
@@ -52,41 +56,6 @@ bool Moved(const Scenario& s, const std::string& channel) {
   return std::any_of(s.excitations.begin(), s.excitations.end(), [&](const Excitation& e) {
     return e.target == coil && !(e.kind == "step" && e.start <= 0);
   });
-}
-
-/// Rows before the scenario begins.
-void CutBefore(Record& data) {
-  if (data.start >= 0) return;
-  const auto rows = static_cast<std::ptrdiff_t>(std::ceil(-data.start * data.rate - 1e-9));
-  if (rows <= 0 || static_cast<std::size_t>(rows) >= data.rows()) return;
-  for (Channel& ch : data.channels) ch.samples.erase(ch.samples.begin(), ch.samples.begin() + rows);
-  data.start += static_cast<double>(rows) / data.rate;
-}
-
-/// Cuts off the rows behind the scenario's end. Returns how long they hold numbers [s].
-double CutBehind(Record& data, double duration) {
-  const auto most = static_cast<std::size_t>(
-      std::max(0.0, std::floor((duration - data.start) * data.rate * (1 + 1e-9) + 1)));
-  std::size_t behind = 0;
-  for (Channel& ch : data.channels) {
-    for (std::size_t k = most; k < ch.samples.size(); ++k)
-      if (std::isfinite(ch.samples[k])) behind = std::max(behind, k + 1 - most);
-    if (ch.samples.size() > most) ch.samples.resize(most);
-  }
-  return static_cast<double>(behind) / data.rate;
-}
-
-/// Times that the case file leaves out: rows without a number.
-void LeaveOutSpans(Record& data, const std::vector<std::vector<double>>& spans,
-                   const TomlTable& t) {
-  for (const std::vector<double>& span : spans) {
-    if (span.size() != 2 || !(span[0] <= span[1]))
-      t.Fail("leave_out", "allowed: [[from, to], ...] in s of the scenario");
-    for (Channel& ch : data.channels)
-      for (std::size_t k = 0; k < ch.samples.size(); ++k)
-        if (const double at = data.TimeAt(k); at >= span[0] && at <= span[1])
-          ch.samples[k] = std::numeric_limits<double>::quiet_NaN();
-  }
 }
 
 double PositiveNumber(const TomlTable& t, const std::string& key) {
@@ -218,29 +187,56 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
   RejectReused(c, r, t);
   t.RejectUnknownKeys();
   r.data.start += r.time_offset;
-  if (r.time_offset != 0) CutBefore(r.data);
-  LeaveOutSpans(r.data, left_out, t);
-  const double behind = CutBehind(r.data, r.scenario.duration);
-  if (r.time_offset == 0) r.behind = behind;
+  CutToScenario(r, c.notes);
+  LeaveOutSpans(r, left_out, t);
   if (r.data.channels.empty())
     t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
   CheckAgainstScenario(r, t);
+  for (const auto& [from, to] : r.gaps)
+    c.notes.push_back(
+        fmt::format("{}: no rows between {:.6g} s and {:.6g} s", r.data_file, from, to));
   for (const Channel& ch : r.data.channels) {
     r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
-    if (!r.quality.back().verdict.starts_with("good"))
-      c.notes.push_back(fmt::format("{}: {}: {}", r.data_file, ch.name, r.quality.back().verdict));
+    const ChannelQuality& q = r.quality.back();
+    if (q.missing == EmptyRows(r) && q.clipped == 0 && q.use) continue;  // told of the record
+    if (!q.verdict.starts_with("good"))
+      c.notes.push_back(fmt::format("{}: {}: {}", r.data_file, ch.name, q.verdict));
   }
   return r;
 }
 
-/// Without any record marked "validate" every third one is kept back for that.
+/// What a record tells that others of its sort tell as well.
+std::tuple<RecordKind, StartState, Imposed, bool, bool> SortOf(const CaseRecord& r) {
+  const bool turns = r.kind == RecordKind::kTime &&
+                     r.scenario.speed.LargestSpeed(r.scenario.duration) > 0,
+             forces = std::ranges::any_of(r.data.channels, [](const Channel&ch) {
+               return IsOfKind(ch.name, ChannelKind::kLoadCell);
+             });
+  return {r.kind, r.scenario.start, r.imposed, turns, forces};
+}
+
+/// Without any record marked "validate" every third one is kept back for that, but none that the fits cannot do
+/// without: of its sort another one must be left to them.
 void ReserveForValidation(Case& c) {
   const bool any =
       std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
   if (any || c.records.size() <= 2) return;
-  for (std::size_t k = 2; k < c.records.size(); k += 3) c.records[k].validate = true;
-  c.notes.push_back(
-      "no record is marked \"validate\": every third record is reserved for validation");
+  std::map<decltype(SortOf(c.records[0])), int> left;
+  for (const CaseRecord& r : c.records) ++left[SortOf(r)];
+  std::size_t since = 0, reserved = 0;
+  for (CaseRecord& r : c.records) {
+    if (++since < 3 || left[SortOf(r)] < 2) continue;
+    --left[SortOf(r)];
+    r.validate = true;
+    since = 0;
+    ++reserved;
+  }
+  c.notes.push_back(reserved > 0
+                        ? fmt::format("no record is marked \"validate\": {} of {} are reserved for "
+                                      "validation",
+                                      reserved, c.records.size())
+                        : "no record is marked \"validate\" and none can be spared: what fits is "
+                          "not validated");
 }
 
 Case CaseOfTable(const TomlTable& root, const std::string& file) {

@@ -38,7 +38,10 @@ struct CaseRecord {
   std::vector<ChannelQuality> quality;  // one per channel of data
   std::map<std::string, ColumnSource> sources;
   double time_offset = 0;  // [s] scenario time of the logger's zero
-  double behind = 0;  // [s] of rows after the scenario's end, cut off; 0 where it has an offset
+  // [s] of rows after the scenario's end that were cut off: more than a logger stopped late has, without an offset
+  double behind = 0;
+  // [s] last row before and first one behind each run of rows without any number that the case does not leave out
+  std::vector<std::pair<double, double>> gaps = {};
 };
 
 /// Standard deviations of what may differ from record to record; 0: it may not.

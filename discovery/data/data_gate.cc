@@ -60,6 +60,7 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
   }
   std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
   CheckLength(model, r, out);
+  CheckGaps(model, r, out);
   CheckRange(model, r, columns, out);
   CheckSpikes(model, r, columns, out);
   CheckHeld(model, r, columns, out);

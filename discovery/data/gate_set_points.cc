@@ -41,7 +41,8 @@ std::size_t ClippedSetPointRows(const CaseModel& model, const CaseRecord& r, con
   if (std::abs(extreme) < kNearLimit * i_max || std::abs(extreme) > (1 - kNearLimit) * i_max)
     return 0;
   std::map<double, std::size_t> times;
-  for (const double v : y) ++times[v];
+  for (const double v : y)
+    if (std::isfinite(v)) ++times[v];
   const std::size_t rows = times[extreme];
   for (const auto& [value, count] : times)
     if (value != extreme && kMoreOften * count > rows) return 0;

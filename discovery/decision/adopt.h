@@ -1,6 +1,6 @@
 #pragma once
 /// Writes a new rig file with an effect and its fitted parameters, and what the calibration found
-/// of the toleranced ones (`fitted` beside `value`: the controller keeps the drawing's numbers).
+/// of the toleranced ones (`fitted` beside `value`: the controller keeps the nominal values).
 #include <memory>
 #include <string>
 #include <vector>

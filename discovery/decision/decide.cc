@@ -18,6 +18,7 @@ constexpr double kMostExplained = 0.9;        // of the squared error above the 
 }  // namespace
 
 double ExplainedShare(double before, double after) {
+  if (std::isinf(before)) return std::isinf(after) ? 0 : 1;
   const double excess = before * before - 1;
   return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
 }

@@ -140,7 +140,14 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
 /// What a reader of this verdict asks next.
 void Explainer::AddToVerdict(const FitResult& base, const FitResult& now) {
   NoteShifts(out_.verdict == "effect" ? now : base);
-  if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));
+  if (out_.verdict == "unknown") {
+    // The model may just hold the rotor on the rows that were fitted.
+    const FitResult all = AllRows(now);
+    if (all.Stands())
+      out_.unexplained = Describe(full_, all);
+    else if (now.Stands())
+      out_.unexplained = Describe(model_, now);
+  }
   if (out_.verdict == "none" || out_.verdict == "parameters") FindHidden(now);
   if (out_.verdict == "effect" || out_.verdict == "unknown") FindConfusable();
 }

@@ -8,7 +8,7 @@
 
 namespace ambrig {
 
-/// What was found of the records and is set right exactly, after which the search begins anew. One number for each
+/// What was found of the records and is set right exactly, after which the search begins again. One number for each
 /// record; empty: nothing.
 struct RecordsSetRight {
   std::vector<int> rows_late;

@@ -30,23 +30,6 @@ FitResult ByItsShape(const RankedEffect& r) {
 }
 }  // namespace
 
-/// An effect that the last fit leaves without a size goes again.
-void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
-  std::size_t sizeless = 0;
-  while (sizeless < out_.adopted.size() && HasSize(now, rig_.effects.size() + sizeless)) ++sizeless;
-  if (sizeless == out_.adopted.size()) return;
-  out_.warnings.push_back(Named(out_.adopted[sizeless]) +
-                          " lies within 3 sd of nothing: it is not named");
-  out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(sizeless));
-  Hypothesis h = base.hypothesis;
-  for (const EffectInstance& e : out_.adopted) h.AddEffect(e);
-  now = out_.adopted.empty() ? base : FitOn(model_, base, h, out_.effective_sample_size);
-  for (std::size_t k = 0; k < out_.adopted.size(); ++k)
-    out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
-  out_.ladder.push_back({"without an effect of no size", now.ratio_fit, now.ratio_validate});
-  DropSizeless(base, now);
-}
-
 bool Explainer::ShapeExplainsAll() const {
   return out_.adopted.size() == 1 && out_.shaped && out_.shaped->Answered() < kShapeExplains;
 }
@@ -72,9 +55,9 @@ double Explainer::GainOfOthers(const FitResult& now, const std::vector<RankedEff
 
 /// Only the best of a round were fitted to the end. `before` lends its sensitivities.
 FitResult Explainer::FittedToTheEnd(const FitResult& before, const RankedEffect& ranked) const {
-  return ranked.fit.jacobian.size() > 0
-             ? ranked.fit
-             : FitOn(model_, before, ranked.fit.hypothesis, out_.effective_sample_size);
+  if (ranked.fit.jacobian.size() > 0) return ranked.fit;
+  const FitResult whole = FitOn(model_, before, ranked.fit.hypothesis, out_.effective_sample_size);
+  return whole.Stands() ? whole : ranked.fit;
 }
 
 void Explainer::NoteRound(const std::vector<RankedEffect>& ranking) {
@@ -107,6 +90,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   NoteRound(ranking);
   bool worth = false;
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
+    if (!r.fit.Stands()) return false;
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
     if (!HasSize(r.fit, last) || IsDetailOf(out_.adopted, FittedEffect(r.fit, last))) return false;
     const double gain = ScoreOf(now) - r.score;
@@ -240,49 +224,6 @@ bool Explainer::AlreadyTried(const CandidatePair& p) const {
     for (const EffectInstance* o : {&p.first, &p.second})
       found += e.name == o->name && e.target == o->target ? 1 : 0;
   return found == 2 || (found == 1 && out_.adopted.size() == 1);
-}
-
-/// An effect that its successors made needless goes again.
-void Explainer::Backward(const FitResult& base, FitResult& now) {
-  if (out_.adopted.size() < 2) return;
-  for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
-    if (IsBesideShape(out_.adopted[drop])) {
-      ++drop;
-      continue;
-    }
-    Progress(0.9, "without " + out_.adopted[drop].name);
-    std::optional<FitResult> without = FitWithout(base, now, drop);
-    const double gain = without ? Gain(*without, now) : kInfinity;
-    if (!without || (!CoilErrorsExplain(drop, now, *without) &&
-                     (WorthAdopting(*without, now, gain, 1, 0) ||
-                      ExplainsItsChannels(model_, *without, now, gain, false)))) {
-      ++drop;
-      continue;
-    }
-    TakeOut(drop, std::move(*without), now);
-  }
-}
-
-std::optional<FitResult> Explainer::FitWithout(const FitResult& base, const FitResult& now,
-                                               std::size_t adopted) const {
-  constexpr double kShare = 0.9, kGain = 200;  // of the error, of the score: plainly needed
-  Hypothesis h = base.hypothesis;
-  for (std::size_t k = 0; k < out_.adopted.size(); ++k)
-    if (k != adopted) h.AddEffect(out_.adopted[k]);
-  const FitResult brief = FitShortly(model_, base, h, out_.effective_sample_size);
-  const bool like_errors = !coil_errors_.empty() && NamesCoil(out_.adopted[adopted].target);
-  if (brief.converged && !like_errors && Gain(brief, now) > kGain &&
-      ExplainedShare(brief.ratio_fit, now.ratio_fit) > kShare &&
-      ExplainedShare(brief.ratio_validate, now.ratio_validate) > kShare)
-    return {};
-  return FitOn(model_, base, brief.converged ? brief.hypothesis : h, out_.effective_sample_size);
-}
-
-void Explainer::TakeOut(std::size_t adopted, FitResult without, FitResult& now) {
-  out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(adopted));
-  now = std::move(without);
-  out_.ladder.push_back(
-      {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
 }
 
 /// A last fit with fresh sensitivities of everything.

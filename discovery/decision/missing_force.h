@@ -1,5 +1,5 @@
 #pragma once
-/// What the force that a model lacks depends on, from all levitated records together: position,
+/// What the unmodelled force depends on, from all levitated records together: position,
 /// velocity, angle of rotation, or contact with something on one side, perhaps only at times; and
 /// the law as an [[effect]] "formula" that a user can write into the rig file.
 #include <optional>

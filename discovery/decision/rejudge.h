@@ -1,5 +1,5 @@
 #pragma once
-/// The name of an effect judged anew beside the other effects that were found. While one of these was
+/// The name of an effect judged again beside the other effects that were found. While one of these was
 /// missing from the model, its error hid what tells the names of the first apart; beside it the same
 /// likelihood rule may decide, or another name may be the better one.
 #include <vector>

@@ -1,4 +1,5 @@
 #pragma once
+/// Which block of the model is wrong: each with measured inputs beside its measured outputs.
 #include "discovery/model/blocks.h"
 #include "discovery/model/model.h"
 

@@ -11,7 +11,7 @@ namespace ambrig {
 /// differ in sign: a prediction jumps where a switching edge passes a sample, on one side only.
 enum class DifferenceSides { kOneSided, kTwoSided };
 
-/// Column j: d(prediction/floor)/d(coordinate j), by differences of `fraction` of a step. Coarse
+/// Rows of the model x `parameters` [-]. Column j: d(prediction/floor)/d(coordinate j), by differences of `fraction` of a step. Coarse
 /// predictions are enough for that. Hypotheses that fall out of control leave a zero column. With a
 /// `look` the rows of its records only; the others are zero.
 Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,

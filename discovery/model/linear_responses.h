@@ -27,7 +27,7 @@ std::vector<Excitation> StandingExcitations(const Scenario& scenario);
 
 class LinearResponses {
  public:
-  /// `rig`: the hypothesis, `drawing`: what the controller knows. @throws InputError
+  /// `rig`: the hypothesis, `drawing`: the nominal rig, which the controller knows. @throws InputError
   LinearResponses(const RigParameters& rig, const RigParameters& drawing, const Scenario& scenario);
   ~LinearResponses();
 

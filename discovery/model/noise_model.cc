@@ -26,6 +26,7 @@ constexpr double kUniform = 1.35;
 // Factor between stated and estimated noise where it is uniform.
 constexpr double kUniformAgrees = 1.1;
 constexpr std::size_t kLeastEstimates = 3;
+constexpr double kFilteredAgrees = 1.25;  // stated noise over the least error of the records
 constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none is stated
 // Of a code of the ADC, and at most of the trial's noise: with less the errors of its codes are no noise, and may be larger
 // than they are with noise.
@@ -71,6 +72,26 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
       ok.push_back(model.ok()[t.first + k]);
     }
     out[channel].push_back(WhiteNoiseOf(error.data(), ok.data(), error.size()));
+  }
+  return out;
+}
+
+/// rms of a - b of every channel in the record where it is least.
+std::map<std::string, double> QuietestErrors(const CaseModel& model, const std::vector<double>& a,
+                                             const std::vector<double>& b) {
+  std::map<std::string, double> out;
+  for (const Target& t : model.targets()) {
+    double square = 0, rows = 0;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      if (!model.ok()[k]) continue;
+      square += (a[k] - b[k]) * (a[k] - b[k]);
+      rows += 1;
+    }
+    if (rows == 0) continue;
+    const std::string& channel = model.data().records[t.record].data.channels[t.channel].name;
+    const double rms = std::sqrt(square / rows);
+    const auto [it, first] = out.try_emplace(channel, rms);
+    if (!first) it->second = std::min(it->second, rms);
   }
   return out;
 }
@@ -222,13 +243,17 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
   const auto clean = model.Predict(h);
   if (!clean) return noise;
   const ByChannel direct = WhiteParts(model, model.measured(), *clean, IsDirect);
+  const auto quietest = QuietestErrors(model, model.measured(), *clean);
   for (const auto& [channel, parts] : direct) {
     ChannelNoise& c = noise.channels[channel];
     const bool uniform = AreAlike(parts);
     // a model's error only adds to it
     c.estimated = uniform ? MedianOf(parts) : LowerQuartileOf(parts);
     const double factor = uniform ? kUniformAgrees : kNoiseAgrees;
-    Choose(c, factor, factor);
+    // Filtered noise has less in its fastest differences than as a whole: it is as large as stated where no record
+    // has a smaller error.
+    const bool filtered = c.stated < kFilteredAgrees * quietest.at(channel);
+    Choose(c, factor, filtered ? kInfinity : factor);
   }
   EstimateCurrents(model, h, *clean, noise);
   noise.estimated = true;

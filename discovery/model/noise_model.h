@@ -38,8 +38,8 @@ RigParameters WithNoise(const RigParameters& rig, const NoiseModel& noise);
 
 /// Estimates the noise of every position, load cell, bus and current column from the differences
 /// between records and prediction (discovery/data/noise_estimate.h). A stated noise is kept when it
-/// agrees with the estimate within a factor of 1.5; else, and where none is stated, the estimate is
-/// used. The noise of coil currents is told from what reaches them through the set-points by two
+/// agrees with the estimate within a factor of 1.5, or is larger and no record has a smaller error (filtered
+/// noise is not white); else, and where none is stated, the estimate is used. The noise of coil currents is told from what reaches them through the set-points by two
 /// simulations, with much and with little of it. `model` holds all rows. Without a prediction the stated noise is
 /// returned.
 NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h);

@@ -1,5 +1,5 @@
 #pragma once
-/// What force the model lacks, estimated from the measurements alone: magnetic forces from measured
+/// Unmodelled force, estimated from the measurements alone: magnetic forces from measured
 /// currents and positions, accelerations from smoothed measured positions, and the difference.
 ///   f_missing(plane) = forces that the rigid rotor's motion needs - magnetic forces - weight - loads
 #include <optional>

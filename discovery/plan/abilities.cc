@@ -35,8 +35,7 @@ Abilities AbilitiesOf(const Case& c) {
   for (const CaseRecord& r : c.records) {
     if (r.kind != RecordKind::kTime) continue;  // says nothing of what a run may be
     const Scenario& s = r.scenario;
-    for (const double t : {0.0, 0.5, 1.0})
-      a.top_speed = std::max(a.top_speed, std::abs(s.speed.Speed(t * s.duration)));
+    a.top_speed = std::max(a.top_speed, s.speed.LargestSpeed(s.duration));
     for (const Channel& ch : r.data.channels) a.channels.insert(ch.name);
     const bool clamped = s.start == StartState::kClamped;
     a.clamp = a.clamp || clamped;

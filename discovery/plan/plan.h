@@ -32,12 +32,13 @@ struct TriedScenario {
 struct Plan {
   std::vector<std::string> names;
   std::vector<PlannedPair> separates;
-  std::vector<TriedScenario> tried;  // best first
-  std::string title, toml, text;     // of the scenario; the card, markdown
-  double duration = 0, record_rate = 0, largest_orbit = 0, largest_current = 0;
+  std::vector<TriedScenario> tried;               // best first
+  std::string title, toml, text;                  // of the scenario; the card, markdown
+  double duration = 0, record_rate = 0;           // [s], [Hz]
+  double largest_orbit = 0, largest_current = 0;  // [m], [A], of all names
   std::vector<std::string> channels;
   std::vector<std::string> warnings;
-  long runs = 0;
+  long runs = 0;  // record simulations
 };
 
 struct PlanOptions {

@@ -1,5 +1,5 @@
 #pragma once
-/// The truth of a practice case, drawn: rig parameters within their sd, effects within their usual
+/// The true rig of a practice case, sampled: rig parameters within their sd, effects within their usual
 /// size at a place of the rig.
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-/// Cases with a known answer, to practise and to cross-validate: a rig whose parameters are drawn
-/// within their sd and whose effects are drawn within their usual size, examined with noise.
+/// Cases with a known answer, to practise and to cross-validate: a rig whose parameters are sampled
+/// within their sd and whose effects are sampled within their usual size, examined with noise.
 #include <atomic>
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a drawn machine is one that somebody would run: records of a loop at the edge of stability
+/// Whether a sampled machine is one that somebody would run: records of a loop at the edge of stability
 /// show its initial state and its noise, whatever else is in it.
 #include "rig/rig_parameters.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Practice cases: rigs whose laws are not the catalogue's (laws/practice_law.h), with drawn
+/// Practice cases: rigs whose laws are not the catalogue's (laws/practice_law.h), with random
 /// parameters, noise that the case states rightly, not at all or wrongly, nuisances of each record,
 /// and logger's mistakes; numbered, so that any of them can be made anywhere.
 #include <atomic>
@@ -18,7 +18,7 @@ struct PracticeRig {
 struct PracticeCase {
   std::string name;       // "case-0007"
   std::string kind;       // one | two | three | unknown | nothing | data
-  std::string rig;        // name, with ", other size" where sizes are drawn
+  std::string rig;        // name, with ", other size" where sizes are sampled
   std::string noise;      // stated | not stated | wrongly stated
   std::string nuisances;  // none | declared | not declared
   std::string mistake;    // of the logger, in words; empty: none
@@ -43,7 +43,7 @@ std::string NameOfPracticeCase(std::size_t number);
 /// Whether calibration is fitted with this law family (else it is checked with it).
 bool FamilyIsForFit(const std::string& family);
 
-/// Makes case `number`. Laws that these records do not show or that lose the rotor are drawn again.
+/// Makes case `number`. Laws that these records do not show or that lose the rotor are sampled again.
 /// @throws InputError when no rig or law works, Interrupted when `stop` is set.
 PracticeCase MakePracticeCase(const std::vector<PracticeRig>& rigs, std::uint64_t seed,
                               std::size_t number, const std::atomic<bool>* stop = nullptr);

@@ -12,7 +12,7 @@ namespace ambrig {
 struct Spoiling {
   // unit | sign | swap | lag | instrument | clip | freeze | lost | range | scenario
   std::string fault;
-  std::string channel;  // "": drawn among those that move
+  std::string channel;  // "": sampled among those that move
   double amount = 0;    // how much goes wrong; 0: as usual
 };
 

@@ -15,7 +15,7 @@ namespace ambrig {
 struct FitOptions {
   int iterations = 4;  // of each pass
   // Each with a new weight, about the point where the last one ended. With `sensitivities` those of the
-  // rig parameters are taken anew in the second pass, later where a parameter moved by more than 1 sd.
+  // rig parameters are taken again in the second pass, later where a parameter moved by more than 1 sd.
   int passes = 4;
   double trust_region = 10;  // at the start of a pass: how far a step is believed
   double tolerance = 1e-3;   // of the cost: a step that gains less is the last
@@ -40,16 +40,21 @@ struct FitOptions {
 
 struct FitResult {
   Hypothesis hypothesis;  // at the optimum
+  // rows of the model: predicted values [SI unit of the channel]; measured less predicted over the floor [-]
   std::vector<double> predicted, residual;
   std::vector<double> sd;  // of the free parameters, their own units
   // the same of an effect's sizes with the shape of its law held: what tells whether it is there
   std::vector<double> size_sd;
-  double ratio_fit = 0, ratio_validate = 0;
+  double ratio_fit = 0, ratio_validate = 0;  // [-] rms over the floor: fitted, validation records
   // Σ (shift/sd)² of the rig parameters, what lies beyond 3 sd counted five times
   double penalty = 0;
   bool converged = false;
   std::vector<std::string> warnings;  // at a bound, without influence, strongly correlated
-  Eigen::MatrixXd jacobian;           // of prediction/floor, a column per free parameter
+  // rows of the model x free parameters: d(prediction/floor)/d(coordinate of the parameter) [-]
+  Eigen::MatrixXd jacobian;
+
+  /// Whether the model could be followed at all: a rotor that is lost at the start leaves no errors to judge by.
+  bool Stands() const { return !residual.empty(); }
 };
 
 /// A fit that finds no better point says so (`converged` false), it never passes for a result.

@@ -18,7 +18,7 @@ class FitProblem {
   void SetMisfitWeight(double ratio);
   /// What 2 log likelihood of the rows looked at rises by from one ratio to a smaller one, at the weight set.
   double MisfitBetween(double before, double after) const;
-  /// Sensitivities of the rig parameters are taken anew.
+  /// Sensitivities of the rig parameters are taken again.
   void Refresh();
   /// Whether a rig parameter of `h` lies beyond the neighbourhood of the point where the sensitivities
   /// of the rig parameters were taken.

@@ -1,5 +1,5 @@
 #pragma once
-/// Hypotheses that the records allow as well as a fit: drawn from its posterior.
+/// Hypotheses that the records allow as well as a fit: sampled from its posterior.
 #include <vector>
 
 #include "discovery/search/fit.h"

@@ -9,12 +9,13 @@
 #include "core/math/constants.h"
 #include "core/record/channels.h"
 #include "discovery/model/in_parallel.h"
+#include "discovery/search/spectral_lines.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr std::size_t kCoherentPeaks = 3, kSpectrumPeaks = 4;
+constexpr std::size_t kCoherentPeaks = 3, kSpectrumPeaks = 4, kLinesTried = 6;
 // Least shares of the squared error above the noise that the lines of a tone hold: of all records of a free rotor, or
 // of one reading in all of them. An error below the least excess, a share of the rows, counts as that.
 constexpr double kOfAll = 0.05, kOfReading = 0.2, kLeastExcess = 0.05;
@@ -54,23 +55,6 @@ Sums SumsAt(const CaseModel& model, const std::vector<double>& residual, const T
     for (std::size_t k = 0; k < count; ++k)
       if (const auto lane = static_cast<Eigen::Index>(k); - turn[lane] <= 0.8 * kPi)
         out[first + k] = {sum_re[lane], sum_im[lane]};
-  }
-  return out;
-}
-
-std::vector<double> Peaks(const std::vector<double>& f, const std::vector<double>& power,
-                          std::size_t count, double apart) {
-  std::vector<std::size_t> order;
-  for (std::size_t k = 1; k + 1 < f.size(); ++k)
-    if (power[k] >= power[k - 1] && power[k] >= power[k + 1]) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
-  std::vector<double> out;
-  for (std::size_t k : order) {
-    if (out.size() >= count) break;
-    if (std::none_of(out.begin(), out.end(),
-                     [&](double g) { return std::abs(f[k] - g) < apart * g; }))
-      out.push_back(f[k]);
   }
   return out;
 }
@@ -169,6 +153,30 @@ std::map<std::string, std::vector<double>> Tones(
   return tones;
 }
 
+/// Frequencies at which a tone of one phase in all records is looked for: a grid where most of them are, which stands
+/// as close as the lines of records of 2 s are wide, and round the strongest lines that it does not reach.
+std::vector<double> TonesLookedAt(const CaseModel& model, const std::vector<double>& residual) {
+  constexpr double kGridBegins = 8, kGridEnds = 320, kStep = 0.4, kAllReached = 2;  // [Hz], [s]
+  constexpr int kBeside = 6;  // on either side of a line, over its width
+  std::vector<double> f;
+  for (double g = kGridBegins; g < kGridEnds; g += kStep) f.push_back(g);
+  std::vector<std::size_t> readings;
+  double longest = 0;
+  for (std::size_t n = 0; n < model.targets().size(); ++n) {
+    const Target& t = model.targets()[n];
+    if (!IsReading(model, t)) continue;
+    readings.push_back(n);
+    longest =
+        std::max(longest, static_cast<double>(t.count) / model.data().records[t.record].data.rate);
+  }
+  const double from = longest > kAllReached ? 2 / longest : kGridEnds;
+  for (const double line : StrongestLines(model, residual, readings, {from, kLinesTried}))
+    for (int k = -kBeside; k <= kBeside; ++k) f.push_back(line + k / (kBeside * longest));
+  std::ranges::sort(f);
+  f.erase(std::ranges::unique(f).begin(), f.end());
+  return f;
+}
+
 }  // namespace
 
 void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio) {
@@ -184,8 +192,8 @@ std::vector<double> WithMains(std::vector<double> frequencies) {
 }
 
 ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& residual) {
-  std::vector<double> f, wide;
-  for (double g = 8; g < 320; g += 0.4) f.push_back(g);
+  std::vector<double> wide;
+  const std::vector<double> f = TonesLookedAt(model, residual);
   for (double g = 15; g < 2500; g *= 1.012) wide.push_back(g);
   // of each target that is a reading
   std::vector<Sums> coherent(model.targets().size()), any_phase(model.targets().size());

@@ -1,5 +1,5 @@
 #pragma once
-/// The prior of the rig parameters in a fit: what their drawing says.
+/// The prior of the rig parameters in a fit: their nominal values and tolerances.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ inline constexpr double kBelieved = 3;  // sd of a rig parameter within its tole
 inline constexpr double kBeyond = 5;    // each further sd counts as so many
 
 /// The prior's residual of a rig parameter that stands `sds` from its mean, and its slope. Gaussian
-/// within three sd; a part further off is hardly the part of the drawing, and an effect that is
+/// within three sd; a part further off hardly has the nominal value, and an effect that is
 /// missing must not be paid with it.
 inline double PriorResidual(double sds) {
   return sds + std::copysign((kBeyond - 1) * std::max(0.0, std::abs(sds) - kBelieved), sds);

@@ -26,8 +26,7 @@ bool CannotShow(const EffectDescription& d, const CaseModel& model) {
   const Case& c = model.data();
   bool moving = false, free_speed = false, contact = model.touches(), levitated = false;
   for (const CaseRecord& r : c.records) {
-    moving = moving || r.scenario.speed.Speed(0) != 0 ||
-             r.scenario.speed.Speed(r.scenario.duration) != 0;
+    moving = moving || r.scenario.speed.LargestSpeed(r.scenario.duration) > 0;
     free_speed = free_speed || r.scenario.speed_free_from < r.scenario.duration;
     contact = contact || r.scenario.start == StartState::kResting || !r.scenario.faults.empty();
     levitated = levitated || r.scenario.start != StartState::kClamped;

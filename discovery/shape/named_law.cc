@@ -119,9 +119,7 @@ ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInst
   ShapeReach reach;
   if (DependsOnFlux(named.name)) reach.density = LargestDensity(model, h, named.target);
   for (const CaseRecord& r : model.data().records) {
-    for (const double t : {0.0, 0.5, 1.0})
-      reach.speed =
-          std::max(reach.speed, std::abs(r.scenario.speed.Speed(t * r.scenario.duration)));
+    reach.speed = std::max(reach.speed, r.scenario.speed.LargestSpeed(r.scenario.duration));
     if (r.scenario.start == StartState::kClamped) continue;
     const Channel* axis = r.data.Find(named.target);  // nullptr: the target is a plane
     const Channel *x = axis ? axis : r.data.Find(named.target + ".x"),

@@ -12,11 +12,12 @@ namespace ambrig {
 struct ShapeFit {
   FitResult fit;              // the hypothesis with the shape as its last effect, without sd
   std::vector<double> sizes;  // of the shape, own units
-  // of the sizes, own units: what the records and the penalty leave, and what the penalty alone does
+  // covariances, sizes x sizes, products of the sizes' own units: what the records and the penalty leave, and what
+  // the penalty alone does
   Eigen::MatrixXd posterior, prior;
   std::vector<double>
-      influence;         // of each size: information of the records times its prior variance
-  double smoothing = 0;  // lambda of the penalty |D c|², c in steps
+      influence;         // of each size [-]: information of the records times its prior variance
+  double smoothing = 0;  // lambda [-] of the penalty |D c|², c in steps
   int iterations = 0;
 
   /// sd of the curve at u, and the share of its prior variance that the records remove, 0 to 1.

@@ -9,7 +9,7 @@
 namespace ambrig {
 
 /// Fits free shapes of the iron's laws at the bearing of the best-ranked name of iron, in the first round also of forces of
-/// the motion where they stand, and ranks anew. Eddy currents that were not ranked join where their shape is the best of all
+/// the motion where they stand, and ranks again. Eddy currents that were not ranked join where their shape is the best of all
 /// and a fit of the catalogue's law has a size. `now` has `round` effects already.
 void JudgeByShape(const RoundSetting& setting, const FitResult& now, int round,
                   std::vector<RankedEffect>& ranking);

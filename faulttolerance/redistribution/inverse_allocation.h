@@ -8,7 +8,7 @@ namespace ambrig {
 /// The inverse knows the rotor's position, so its forces carry no negative stiffness of their own;
 /// the controller was made for a bearing with one, so the stiffness of the healthy W is added back
 /// (`stiffness` [N/m]). Where its branch ends (the force is missed for some periods) it searches
-/// anew.
+/// again.
 class InverseAllocation : public CurrentAllocation {
  public:
   InverseAllocation(const ForceInverse& started, const Eigen::Matrix2d& stiffness)

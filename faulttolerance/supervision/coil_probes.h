@@ -35,7 +35,7 @@ class CoilProbes {
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
-  /// witness then only to a detector that does not doubt its model.
+  /// indication then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
   /// Whether another coil of the bearing waits for its probes after a false reading of its current, came back
   /// from one, or answered as healthy to a detector that doubts its model. Current sensors do not fail one after the other within milliseconds, a

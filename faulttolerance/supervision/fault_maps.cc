@@ -29,6 +29,11 @@ void FaultSupervisor::Redistribute(Watched& w, double t, const BearingControl& c
     map = *w.healthy;
   else
     cls = NewMap(w, force, &map);
+  TellRedistribution(w, t, cls, out.events);
+  if (!w.mapped) {  // its currents do not change
+    out.actions.push_back(std::move(change));
+    return;
+  }
   if (w.bearing->kind->eight_poles)
     change.current_transition = NewCurrentTransition(w, map, force, control);
   // The set-points that come next.
@@ -36,7 +41,17 @@ void FaultSupervisor::Redistribute(Watched& w, double t, const BearingControl& c
   if (change.current_transition) next = change.current_transition->Clone()->Step(next, force);
   out.actions.push_back(std::move(change));
   MoveIntegrals(w, control, next, out);
-  out.events.push_back({t, "redistributed", w.bearing->name, cls, 0});
+}
+
+void FaultSupervisor::TellRedistribution(const Watched& w, double t, const std::string& cls,
+                                         std::vector<RunEvent>& events) {
+  const bool whole = (w.turns_left.array() == 1).all();
+  if (w.mapped && cls != ToText(SolvabilityClass::kNone)) {
+    events.push_back({t, "redistributed", w.bearing->name, cls, 0});
+  } else if (!whole) {
+    events.push_back(
+        {t, "not_redistributed", w.bearing->name, w.mapped ? cls : "own set-points", 0});
+  }
 }
 
 void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& control,

@@ -93,6 +93,7 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
                                    const BearingControl& control, SupervisorOutput& out) {
   Watched& w = *watched_[k];
   std::vector<RunEvent>& events = out.events;
+  w.mapped = m.bearings[k].mapped;
   MeasuredPeriod in = feed_.Period(k, m);
   in.set_point = &control.commanded;
   const DetectorAlarm alarm = w.detector->Period(in);

@@ -9,6 +9,9 @@
 ///     command of the position loop stays as it is (bumpless in force)
 ///   - every regulator's integral is moved by what its new current needs (bumpless in voltage)
 ///   - a coil that was switched off is looked at again and may return (coil_probes.h)
+/// A bearing whose controller commands currents itself is told so ("not_redistributed"): its map waits
+/// for a controller that uses it, and its regulators are left alone. So is one that nothing is left
+/// of that gives its forces, though its coils that work go on with what they can.
 /// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
 #include <deque>
 #include <map>
@@ -60,6 +63,9 @@ class FaultSupervisor : public Supervisor {
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
   void Redistribute(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);
+  /// That the bearing's currents follow a map of class `cls`, or why they do not.
+  static void TellRedistribution(const Watched& w, double t, const std::string& cls,
+                                 std::vector<RunEvent>& events);
   /// A second look at coils that were given up, a first one at coils that lie idle.
   void Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
              const BearingControl& control, SupervisorOutput& out);

@@ -16,6 +16,7 @@ struct FaultSupervisor::Watched {
   CoilVector turns_left = CoilVector::Ones();
   std::optional<CurrentMap> healthy;  // the map before the first action
   double bias = 0;                    // of a coil [A]
+  bool mapped = true;                 // its set-points come from its map (control/measurements.h)
   CoilProbes probes;
   int probed = -1;        // coil that a current is asked of now
   bool doubted = false;   // whether the detector doubted its model when that began

@@ -4,7 +4,7 @@
 ///
 /// A coil's ratio is the largest |c|/band over the windows, band = max(floor, 1.5 times the largest
 /// of commissioning), at least 0.08 below zero, 0.15 for the windings of a thrust side. The coil of the largest ratio is
-/// blamed when it stays above 1 in three periods in a row and a second witness agrees: either c of the on and of the off phase have one
+/// blamed when it stays above 1 in three periods in a row and a second indication agrees: either c of the on and of the off phase have one
 /// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point, or its
 /// reading is zero while the bridge drives.
 ///
@@ -131,7 +131,7 @@ class CommissionedDetector : public CoilDetector {
   double LeastBand(int coil, int window) const;
   /// Whether both are windings of one thrust side (or one and the same).
   bool SharesCore(int coil, int other) const;
-  /// A coil has other turns left than believed: means and bands begin anew.
+  /// A coil has other turns left than believed: means and bands begin again.
   void TakeShare(int coil, double share);
   void WatchCurrents(const MeasuredPeriod& in);
   void WatchRange(const MeasuredPeriod& in);
@@ -170,7 +170,7 @@ class CommissionedDetector : public CoilDetector {
   void WatchJumps();
   void FollowDrift(bool doubtful);
   /// What the first 40 undisturbed periods show, and then the first 160, is drift since the commissioning, within its
-  /// bounds: taken off at once, and the windows begin anew. Whether this is such a period.
+  /// bounds: taken off at once, and the windows begin again. Whether this is such a period.
   bool TakesFirstDrift();
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.
@@ -187,7 +187,7 @@ class CommissionedDetector : public CoilDetector {
   /// that the model errs.
   bool ShortedAgain(const Diagnosis& d) const;
   /// Whether a small short is not named yet, because another coil is about to stand out as much: of two that lost turns
-  /// at one instant each hides a part of the other, and after the first is named the windows of the second begin anew.
+  /// at one instant each hides a part of the other, and after the first is named the windows of the second begin again.
   bool AwaitsCompanion(const Diagnosis& d, double excess) const;
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;

@@ -1,6 +1,6 @@
 #pragma once
 /// Current sensors whose offset steps: a reading jumps by what no voltage can make, afterwards all
-/// slopes are right. Two witnesses: the jump itself (reading_jump.h), and the current that misses
+/// slopes are right. Two indications: the jump itself (reading_jump.h), and the current that misses
 /// its set-point to the same side in the next period. It comes once: where any reading has jumped
 /// shortly before or jumps soon after, currents swing (a current loop on half of the turns has four
 /// times its gain). A fault of the coil itself shows in its slopes within a few periods and is

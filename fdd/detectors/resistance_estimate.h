@@ -1,5 +1,5 @@
 #pragma once
-/// Resistance of coils while they run: copper that warms up, drops that differ from the drawing.
+/// Resistance of coils while they run: copper that warms up, drops that differ from the nominal ones.
 #include "fdd/detectors/coil_detector.h"
 
 namespace ambrig {

@@ -7,7 +7,7 @@
 ///
 ///   c_j(a) = 0   for every coil whose current is known,
 ///
-/// solved by Newton's method over the last periods, with fluxes computed anew for each trial from
+/// solved by Newton's method over the last periods, with fluxes computed again for each trial from
 /// the state that the circuit had before the first of them. A coil without current (open, bridge
 /// off) adds no ampere-turns whatever its a, so that shorts are found beside it.
 ///

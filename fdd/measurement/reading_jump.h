@@ -2,7 +2,7 @@
 /// Steps of a current reading between two ADC samples that no voltage can make. Two limits:
 ///
 ///   V h/L_leak   anywhere: the inductance of a coil is never below its leakage; beside edges at
-///                least 1.25 times what was seen there, of a coil with less leakage than drawn
+///                least 1.25 times what was seen there, of a coil with less leakage than nominal
 ///   s h + half   but for three intervals after the edge in a period: there the current goes on by
 ///                the steps that it made in the period before, however small the inductance is that
 ///                the iron's eddy currents leave

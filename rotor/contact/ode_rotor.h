@@ -1,5 +1,5 @@
 #pragma once
-/// The second witness of contact: the rotor of a RotorModel as rigid bodies of the Open Dynamics
+/// The independent model of contact: the rotor of a RotorModel as rigid bodies of the Open Dynamics
 /// Engine. Same parameters, forces and effects; another solver of motion and contact:
 ///
 ///   - the rotor turns in full: finite rotations in all six degrees of freedom, spin included (the

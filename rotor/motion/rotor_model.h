@@ -87,11 +87,13 @@ class RotorModel {
   double Penetration(const MotionState& s, std::size_t plane) const;
   double AxialPenetration(const MotionState& s) const;
   bool NearContact(const MotionState& s, double horizon) const;
-  /// Rotor at rest on its auxiliary bearings. Needs two of them, or one and no tilt.
+  /// Rotor at rest on its first two auxiliary bearings. @throws InputError without two, or without
+  /// gravity across the shaft.
   void Rest(MotionState& s) const;
   /// Base at the deflection under the static load that the stator carries.
   void SettleBase(MotionState& s, double stator_x, double stator_y) const;
-  /// Kinetic energy plus elastic energy of contacts, modes, base [J]; gravity's potential included.
+  /// Kinetic energy of the rotor, elastic energy of its modes and of the contacts in auxiliary bearings,
+  /// and gravity's potential [J]. Base, mounts, races and axial stop are not in it.
   double Energy(const MotionState& s) const;
 
   int dof() const { return dof_; }
@@ -107,7 +109,7 @@ class RotorModel {
   double free_from() const { return free_from_; }
   bool SpeedIsFree(double t) const { return t >= free_from_; }
   bool HasLoads() const { return !loads_.empty(); }
-  // For a second witness of the same rotor (rotor/motion/rotor_stepper.h).
+  // For an independent model of the same rotor (rotor/motion/rotor_stepper.h).
   const std::vector<ExternalLoad>& loads() const { return loads_; }
   const AuxiliaryParameters* axial_stop() const { return has_axial_ ? &axial_ : nullptr; }
   const BaseOnFloor& base() const { return base_; }

@@ -1,5 +1,8 @@
 #include "rotor/motion/speed_profile.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/errors.h"
 
 namespace ambrig {
@@ -31,6 +34,13 @@ SpinState SpeedProfile::At(double t) const {
   const double acceleration = (w_[k + 1] - w_[k]) / (t_[k + 1] - t_[k]),
                speed = w_[k] + acceleration * since;
   return {angle_[k] + 0.5 * (w_[k] + speed) * since, speed, acceleration};
+}
+
+double SpeedProfile::LargestSpeed(double duration) const {
+  double most = std::max(std::abs(Speed(0)), std::abs(Speed(duration)));
+  for (std::size_t k = 0; k < t_.size(); ++k)
+    if (t_[k] > 0 && t_[k] < duration) most = std::max(most, std::abs(w_[k]));
+  return most;
 }
 
 double SpeedProfile::Acceleration(double t) const { return At(t).acceleration; }

@@ -20,6 +20,8 @@ class SpeedProfile {
   double Acceleration(double t) const;  // [rad/s2]
   /// All three at once.
   SpinState At(double t) const;
+  /// The largest |Omega| from t = 0 to `duration` [rad/s].
+  double LargestSpeed(double duration) const;
   double end() const { return t_.back(); }
 
  private:

@@ -7,7 +7,9 @@ namespace ambrig {
 namespace {
 constexpr double kSag = 0.8;  // of the nominal bus, where the file names no voltage
 constexpr FaultParameter kBusSagParameters[] = {
-    {"voltage", "V", 0, 1e5, true, false, "during the sag; default: 0.8 of the nominal one"},
+    {"voltage", "V", 0, 1e5, true, false,
+     "during the sag, below the rig's bus_voltage; default: 0.8 of it", 0, false,
+     &AmplifierParameters::bus_voltage},
     {"duration", "s", 0, kInfinity, false, false, "inf (default): for good"},
 };
 }  // namespace

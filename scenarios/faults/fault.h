@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "rig/rig_parameters.h"
 #include "scenarios/faults/fault_spec.h"
 
 namespace ambrig {
@@ -27,6 +28,8 @@ struct FaultParameter {
   std::string_view doc;
   double neutral = 0;  // the value that changes nothing
   bool required = false;
+  /// The rig's own number, in the same unit, that it must stay below: a sag is no rise.
+  double AmplifierParameters::*below = nullptr;
 };
 
 struct Fault {

@@ -22,12 +22,14 @@ bool Inside(const FaultParameter& p, double v) {
   return p.ends_allowed ? v >= p.lo && v <= p.hi : v > p.lo && (v < p.hi || std::isinf(p.hi));
 }
 
-double ReadOne(const TomlTable& t, const FaultParameter& p) {
+double ReadOne(const TomlTable& t, const FaultParameter& p, const RigParameters& rig) {
   if (p.flag) return t.Bool(p.key, false) ? 1 : 0;
   const double v = t.Number(p.key, std::isinf(p.hi) ? kInfinity : 0.0);
-  if (!Inside(p, v))
-    t.Fail(p.key, fmt::format("= {}{}, allowed: {}", v,
-                              p.unit == "-" ? "" : fmt::format(" {}", p.unit), Allowed(p)));
+  const std::string unit = p.unit == "-" ? "" : fmt::format(" {}", p.unit);
+  if (!Inside(p, v)) t.Fail(p.key, fmt::format("= {}{}, allowed: {}", v, unit, Allowed(p)));
+  if (p.below && !(v < rig.amplifier.*p.below))
+    t.Fail(p.key, fmt::format("= {}{}, allowed: {} to below {}{} ({})", v, unit, p.lo,
+                              rig.amplifier.*p.below, unit, p.doc));
   return v;
 }
 
@@ -75,12 +77,12 @@ std::string FaultClassNames() {
   return names;
 }
 
-const Fault& ReadFault(const TomlTable& t, const std::string& allowed,
+const Fault& ReadFault(const TomlTable& t, const std::string& allowed, const RigParameters& rig,
                        std::map<std::string, double>* parameters) {
   const Fault& fault = FaultByKind(t.Choice("kind", "", allowed));
   if (const auto given = t.Table("parameters"))
     for (const FaultParameter& p : fault.parameters)
-      if (given->Has(p.key)) (*parameters)[std::string(p.key)] = ReadOne(*given, p);
+      if (given->Has(p.key)) (*parameters)[std::string(p.key)] = ReadOne(*given, p, rig);
   CheckParameters(t, fault, *parameters);
   return fault;
 }

@@ -16,9 +16,9 @@ std::string FaultKindNames(std::span<const FaultTarget> targets);
 std::string FaultClassNames();
 
 /// Reads `kind` (one of `allowed`) and the table `parameters` of a fault; both checked against the
-/// catalogue.
+/// catalogue and, where it says so, against `rig`.
 /// @throws InputError with file:line, key, value and what is allowed.
-const Fault& ReadFault(const TomlTable& t, const std::string& allowed,
+const Fault& ReadFault(const TomlTable& t, const std::string& allowed, const RigParameters& rig,
                        std::map<std::string, double>* parameters);
 
 }  // namespace ambrig

@@ -1,6 +1,6 @@
 #pragma once
 /// The reference engine: the switching rig with every event located, integrated by SUNDIALS to a
-/// tight tolerance. It is the independent witness for the switching engine: its own magnetics
+/// tight tolerance. It is the independent reference for the switching engine: its own magnetics
 /// (actuators/magnetics/coil_network), its own integrator, the same laws for rotor, loops and bridges.
 ///
 /// Located exactly: period starts, ADC samples, both edges of every coil's voltage, starts and ends

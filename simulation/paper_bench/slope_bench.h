@@ -1,5 +1,5 @@
 #pragma once
-/// The experiment of the seed paper on a single coil: what its detector (fdd/detectors/slope.h)
+/// The experiment of the slope detector's paper on a single coil: what its detector (fdd/detectors/slope.h)
 /// makes of records that hold every sample of the converter. The coil is the one magnet of a rig
 /// whose rotor is clamped (bearing kind "opposed", one coil), simulated like any other rig.
 ///

@@ -37,7 +37,7 @@ struct CommandPlan {
     std::size_t controller = 0;  // 0: main, then the rig's others
   };
   std::vector<Switch> switches;
-  // The controller that is designed anew after a redistribution, counted likewise; none: as it was.
+  // The controller that is designed again after a redistribution, counted likewise; none: as it was.
   std::optional<std::size_t> retuned;
 
   static double At(const Signal& s, long long k) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The maps from forces to currents that a controller is designed anew for after coils have failed.
+/// The maps from forces to currents that a controller is designed again for after coils have failed.
 ///
 /// The linear plant of a synthesis has healthy coils. A coil that has kept the share s of its turns and carries i
 /// makes the ampere-turns of a healthy one with s i: its row of W counts s times. A force-by-force allocation makes

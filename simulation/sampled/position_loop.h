@@ -47,6 +47,8 @@ class PositionLoop {
   double speed_reading() const { return speed_reading_; }
   double angle_reading() const { return angle_reading_; }
   std::size_t axes() const { return axes_.size(); }
+  /// Whether the set-points of a bearing come from its current map.
+  bool Mapped(std::size_t bearing) const { return controller_->SetPoints(bearing) == nullptr; }
 
  private:
   struct Axis {

@@ -143,15 +143,17 @@ std::size_t SampledDataLoop::Supervise(long long n, RunResult& result) {
   // The bus at the period's end: the next one's first reading.
   const double bus =
       noise_->BusReading(plant.bus.voltage, scenario.noise ? rig.amplifier.bus_noise : 0, n + 1, 0);
+  // A retuned controller goes by the maps: it takes over with the first that is replaced.
   for (const SampledBearing& b : bearings)
-    m.bearings.push_back({b.adc, &control[b.index].duty, bus});
+    m.bearings.push_back({b.adc, &control[b.index].duty, bus,
+                          loop_->Mapped(b.index) || commands_->retuned.has_value()});
   supervision_.actions.clear();
   supervision_.events.clear();
   options.supervisor->AfterPeriod(m, control, supervision_);
   if (!supervision_.actions.empty())
     computed_.push_back({n + computing_, std::move(supervision_.actions)});
   for (RunEvent& e : supervision_.events)
-    if (e.kind == "redistributed" || e.kind == "restored")
+    if (e.kind == "redistributed" || e.kind == "not_redistributed" || e.kind == "restored")
       e.t += static_cast<double>(computing_) * T;
   if (!computed_.empty()) CarryOut(n);
   result.events.insert(result.events.end(), supervision_.events.begin(), supervision_.events.end());

@@ -33,7 +33,7 @@ struct SampledOptions {
   double record_rate = 0;                           // 0: the scenario's
   std::vector<std::string> recorded_channels = {};  // empty: all
   bool noise = true;                                // false: none, whatever the scenario says
-  bool coil_spread = true;  // false: every coil as drawn, as models of measured rigs have them
+  bool coil_spread = true;  // false: every coil nominal, as models of measured rigs have them
   // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
   double warm_up = -1;
   // what the controller knows; default: the rig file's values

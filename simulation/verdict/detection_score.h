@@ -25,7 +25,8 @@ struct DetectionScore {
   std::size_t judged() const;
   std::size_t detected() const;
   std::size_t right_class() const;
-  bool all_detected() const { return detected() == faults.size(); }
+  /// Of those that are judged.
+  bool all_detected() const { return detected() == judged(); }
   /// The longest among the faults that were detected, or followed by a redistribution [s]; -1: none.
   double longest_detection() const;
   double longest_redistribution() const;

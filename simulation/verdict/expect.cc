@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/counted.h"
 #include "simulation/verdict/detection_score.h"
 
 namespace ambrig {
@@ -28,22 +29,33 @@ ExpectResult Equal(const std::string& key, bool wanted, bool got) {
   return {key, wanted ? "true" : "false", got ? "true" : "false", wanted == got};
 }
 
-/// Every fault of the scenario has an alarm of its own target, the latest of them within the limit.
-ExpectResult Detected(const Scenario& s, const DetectionScore& score) {
-  return AtMost("detected_within", *s.expect.detected_within, score.longest_detection(),
-                score.all_detected() && !score.faults.empty(), kMilliSeconds);
+/// `got` of the faults that are judged, with those that are not.
+std::string WithUnjudged(const std::string& got, const DetectionScore& score) {
+  const std::size_t unjudged = score.faults.size() - score.judged();
+  if (unjudged == 0) return got;
+  if (score.judged() == 0) return "not judged: the rotor was lost";
+  return fmt::format("{} ({} not judged: the rotor was lost)", got, Counted(unjudged, "fault"));
 }
 
-/// The last class given to each faulty target is the wanted one.
+/// Every fault that is judged has an alarm of its own target, the latest of them within the limit.
+ExpectResult Detected(const Scenario& s, const DetectionScore& score) {
+  ExpectResult r = AtMost("detected_within", *s.expect.detected_within, score.longest_detection(),
+                          score.all_detected() && score.judged() > 0, kMilliSeconds);
+  r.got = WithUnjudged(r.got, score);
+  return r;
+}
+
+/// The last class given to the target of each fault that is judged is the wanted one.
 ExpectResult Classified(const Scenario& s, const DetectionScore& score) {
   std::string got;
-  bool met = !score.faults.empty();
+  bool met = score.judged() > 0;
   for (const FaultScore& fault : score.faults) {
+    if (!fault.judged) continue;
     const std::string last = fault.last_class.empty() ? "none" : fault.last_class;
     met = met && last == *s.expect.classified;
     if (got.find(last) == std::string::npos) got += (got.empty() ? "" : ", ") + last;
   }
-  return {"classified", *s.expect.classified, got, met};
+  return {"classified", *s.expect.classified, WithUnjudged(got, score), met};
 }
 
 }  // namespace

@@ -22,6 +22,13 @@ void PastThePoles(double t, const std::string& bearing, RunResult& result) {
       bearing, t));
 }
 
+/// Said once: the magnet is too far away to count on.
+void Fallen(double t, const std::string& bearing, RunResult& result) {
+  if (result.drop) return;
+  result.drop = true;
+  result.events.push_back({t, "drop", bearing, "", 0});
+}
+
 }  // namespace
 
 RunWatch::RunWatch(const SampledDataLoop& loop, RunResult& result)
@@ -36,16 +43,27 @@ void RunWatch::Period(long long n) {
   for (const SampledBearing& b : loop_.bearings) {
     const double squared = b.true_x * b.true_x + b.true_y * b.true_y;
     const double gap = b.plant->lanes.gap_offset[0];
-    if (squared > gap * gap) {
+    if (!(squared > gap * gap)) {
+      Count(b, squared, late);
+    } else if (InPole(loop_.rig.bearings[b.index], gap, b.true_x, b.true_y)) {
       PastThePoles(loop_.motion.t, b.plant->name, result_);
       orbit_squared_[b.index] = gap * gap;
       if (late) late_squared_ = std::max(late_squared_, gap * gap);
-      continue;
+    } else {
+      Count(b, squared, late);
+      if (Uncaught()) Fallen(loop_.motion.t, b.plant->name, result_);
     }
-    orbit_squared_[b.index] = std::max(orbit_squared_[b.index], squared);
-    if (late) late_squared_ = std::max(late_squared_, squared);
   }
   contacts_.Period(loop_.motion, n == 0, result_);
+}
+
+bool RunWatch::Uncaught() const {
+  return loop_.plant.rotor.auxiliaries().empty() && !loop_.plant.rotor.axial_stop();
+}
+
+void RunWatch::Count(const SampledBearing& b, double squared, bool late) {
+  orbit_squared_[b.index] = std::max(orbit_squared_[b.index], squared);
+  if (late) late_squared_ = std::max(late_squared_, squared);
 }
 
 void RunWatch::Finish() {
@@ -58,8 +76,7 @@ void RunWatch::Finish() {
   contacts_.Finish(loop_.motion, result_);
   if (std::ranges::count(result_.events, kInvalid, &RunEvent::kind) == 0) return;
   // With nothing that could catch it, a shaft at the poles has fallen.
-  if (loop_.plant.rotor.auxiliaries().empty() && !loop_.plant.rotor.axial_stop())
-    result_.drop = true;
+  if (Uncaught()) result_.drop = true;
   // No deeper than where an orbit ends: at the pole faces.
   double deepest = 0;
   for (const SampledBearing& b : loop_.bearings)

@@ -39,6 +39,14 @@ TEST(RunStages, RunFromTheFirstFaultToItsLastReaction) {
   EXPECT_NEAR(s.window[1], 0.8 + 0.016, 1e-12);  // four times the reaction
 }
 
+// What could not be done about a fault ends the reaction as well as what was.
+TEST(RunStages, TheReactionMayBeThatNothingIsRedistributed) {
+  const RunStages s = FindStages(Data({{0.8, "fault", "A3", "open"},
+                                       {0.801, "classified", "A3", "open"},
+                                       {0.804, "not_redistributed", "A", "none"}}));
+  EXPECT_EQ(s.reaction, 0.804);
+}
+
 TEST(RunStages, TheWindowStaysInsideTheRun) {
   const RunStages early = FindStages(Data({{0.501, "fault", "A3", ""}}));
   EXPECT_EQ(early.window[0], 0.5);

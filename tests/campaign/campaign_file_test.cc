@@ -136,5 +136,25 @@ TEST(RunPlan, PositionIsReachedWithoutOvershoot) {
   EXPECT_NEAR(row.Number("late_orbit"), 0.6 * 2e-4, 0.1 * 0.6 * 2e-4);
 }
 
+// A row may not state a position that its run was never told.
+TEST(CampaignFile, PositionsNeedABearingThatHoldsThem) {
+  const CampaignFolder f;
+  const auto said = [&](const std::string& text) {
+    f.Write("c.toml", "rig = \"rig.toml\"\nduration = 0.07\n" + text);
+    return ErrorText<InputError>([&] { ReadCampaign(f.File("c.toml")); });
+  };
+  const std::string faults = "[faults]\nsets = \"single\"\ntime = 0.06\nbearings = ";
+  const std::string away = "[operation]\npositions = [0.0, 0.5]\n";
+  EXPECT_NE(said(faults + "[\"Z\"]\n" + away)
+                .find("c.toml:8: operation.positions: other than 0 at bearing Z of"),
+            std::string::npos);
+  EXPECT_NE(said(faults + "[\"A\", \"Z\"]\n" + away).find("bearing Z"), std::string::npos);
+  EXPECT_EQ(said(faults + "[\"A\", \"B\"]\n" + away), "");
+  EXPECT_EQ(said(faults + "[\"Z\"]\n[operation]\npositions = [0.0]\n"), "");
+  // Without [faults] the rig's first bearing is the one that is moved: of a network of poles, none.
+  f.Write("rig.toml", ReadBytes(AMBRIG_SOURCE_DIR "/examples/stators/six_poles.toml"));
+  EXPECT_NE(said(away).find("operation.positions: other than 0 at bearing A"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ambrig::testing

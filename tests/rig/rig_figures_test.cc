@@ -114,6 +114,21 @@ TEST(Clearance, IsThatOfTheAuxiliaryBearing) {
   EXPECT_EQ(GapOf(magnet.bearings[0]), magnet.bearings[0].opposed.gap);
 }
 
+// One magnet alone stands on the side that it pulls to; every other bearing has poles on both.
+TEST(Clearance, PolesStandWhereMagnetsAre) {
+  BearingParameters m = ExampleRig("mls2em").bearings[0];
+  const double gap = m.opposed.gap;
+  EXPECT_TRUE(InPole(m, gap, 0));
+  EXPECT_FALSE(InPole(m, -3 * gap, 0));
+  EXPECT_TRUE(InPole(m, 0.5 * gap, 0.6 * gap, 0));  // where its pole stands nearer than drawn
+  EXPECT_FALSE(InPole(m, 0.5 * gap, -0.6 * gap, 0));
+  m.opposed.coils = 2;
+  EXPECT_TRUE(InPole(m, -gap, 0));
+  const BearingParameters& a = *ReferenceLanesRig().Find("A");
+  EXPECT_TRUE(InPole(a, 3e-4, -3e-4));
+  EXPECT_FALSE(InPole(a, 2.8e-4, -2.8e-4));
+}
+
 TEST(BearingKinds, AreFoundByTheNamesThatFilesGiveThem) {
   EXPECT_EQ(BearingKindNames(), "radial, thrust, opposed, stator, axial-stator");
   for (const BearingKind* k : BearingKinds()) EXPECT_EQ(FindBearingKind(k->name), k);

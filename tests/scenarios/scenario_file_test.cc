@@ -104,6 +104,42 @@ TEST(ScenarioFile, LoadsActAtBearingsStationsOrPlaces) {
   EXPECT_THAT(ScenarioMessage("[[load]]\nplane = \"A\"\nforce = []\n"), HasSubstr("force"));
 }
 
+// One number has no direction across the shaft, two have none along it.
+TEST(ScenarioFile, FewNumbersOfALoadMeanWhatActsAtItsPlane) {
+  for (const char* across : {"plane = \"A\"", "z = 0.05"})
+    for (const char* one : {"-10.0", "[-10.0]"})
+      EXPECT_THAT(ScenarioMessage(std::string("[[load]]\n") + across + "\nforce = " + one + "\n"),
+                  HasSubstr("load[1].force: allowed: [fx, fy] or [fx, fy, fz] in N"))
+          << across << one;
+  EXPECT_THAT(
+      ScenarioMessage("[[load]]\nplane = \"Z\"\nforce = [1.0, 2.0]\n"),
+      HasSubstr("load[1].force: at a bearing along the shaft, allowed: fz or [fx, fy, fz]"));
+  const Scenario s = ReadWith(
+      "[[load]]\nplane = \"Z\"\nforce = [4.0]\n"
+      "[[load]]\nplane = \"Z\"\nforce = [1.0, 2.0, 3.0]\n"
+      "[[load]]\nplane = \"A\"\nforce = [1.0, 2.0, 3.0]\n"
+      "[[load]]\nplane = \"A\"\nforce = [1.0, 2.0]\n");
+  ASSERT_EQ(s.loads.size(), 4u);
+  const double wanted[][3] = {{0, 0, 4}, {1, 2, 3}, {1, 2, 3}, {1, 2, 0}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(s.loads[k].fx, wanted[k][0]) << k;
+    EXPECT_EQ(s.loads[k].fy, wanted[k][1]) << k;
+    EXPECT_EQ(s.loads[k].fz, wanted[k][2]) << k;
+  }
+}
+
+TEST(ScenarioFile, ASagIsBelowTheBus) {
+  const auto said = [](const char* volts) {
+    return ScenarioMessage(
+        std::string("[[fault]]\ntime = 0.1\nkind = \"bus-sag\"\nparameters = { voltage = ") +
+        volts + " }\n");
+  };
+  for (const char* volts : {"60.0", "30.0"})  // a rise, nothing at all
+    EXPECT_THAT(said(volts), HasSubstr(" V, allowed: 0 to below 30 V (during the sag")) << volts;
+  EXPECT_EQ(said("29.9"), "no mistake");
+  EXPECT_EQ(said("0.0"), "no mistake");
+}
+
 TEST(ScenarioFile, FaultsComeInOrderOfTime) {
   const Scenario s = ReadWith(
       "[[fault]]\ntime = 0.3\nkind = \"open\"\ntarget = \"A.coil1\"\n"

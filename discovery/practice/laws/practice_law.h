@@ -13,7 +13,7 @@
 
 namespace ambrig {
 
-/// Numbers drawn one after the other; a copy draws the same ones again.
+/// Numbers sampled one after the other; a copy draws the same ones again.
 class PracticeDraw {
  public:
   PracticeDraw(std::uint64_t seed, std::uint32_t stream) : seed_(seed), stream_(stream) {}
@@ -55,7 +55,7 @@ std::vector<PracticeLaw> ReadingLaws();
 std::vector<PracticeLaw> ElectricLaws();
 std::vector<PracticeLaw> StructureLaws();
 std::vector<PracticeLaw> UnknownLaws();
-/// The catalogue's own laws with drawn sizes, for effects that have no other form here.
+/// The catalogue's own laws with random sizes, for effects that have no other form here.
 std::vector<PracticeLaw> OwnLaws();
 
 /// Targets that this rig offers: "rig", radial bearings, their axes and coils.

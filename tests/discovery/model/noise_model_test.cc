@@ -93,6 +93,24 @@ TEST(EstimateNoise, WhatDiffersFromRecordToRecordIsNotBelievedSoFast) {
   EXPECT_EQ(EstimatedNoise(c, "A.x").used, 1.8e-7);
 }
 
+// Filtered noise shows little of itself from row to row. A statement that is too large is contradicted by the errors.
+TEST(EstimateNoise, FilteredNoiseIsAsLargeAsStated) {
+  Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
+  const double keep = 0.95, rms = 3e-6, fresh = rms * std::sqrt(1 - keep * keep);
+  std::uint32_t seed = 1;
+  for (CaseRecord& r : c.records) {
+    double filtered = 0;
+    for (double& v : r.data.channels[0].samples)
+      v += filtered = keep * filtered + fresh * Normal(5, 9, seed++);
+  }
+  c.noise["A.x"] = rms;
+  const ChannelNoise noise = EstimatedNoise(c, "A.x");
+  EXPECT_LT(noise.estimated, 0.5 * rms);
+  EXPECT_EQ(noise.used, rms);
+  c.noise["A.x"] = 30 * rms;
+  EXPECT_LT(EstimatedNoise(c, "A.x").used, rms);
+}
+
 TEST(NoiseRemarks, NameWhatIsNotBelievedAndWhatWasNotStated) {
   NoiseModel noise;
   noise.estimated = true;

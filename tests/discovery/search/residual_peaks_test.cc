@@ -50,6 +50,28 @@ TEST(ResidualPeaks, FindsATone) {
   EXPECT_FALSE(peaks.ShowsNoTone("A"));
 }
 
+// Beyond the grid, and in records whose lines are finer than it: between two of its frequencies a line of 5 s is not
+// seen.
+TEST(ResidualPeaks, FindsTonesThatNoGridReaches) {
+  Case c = LevitatedRecords();
+  for (const double tone : {431.3, 1503.7}) {
+    const CaseModel model(c);
+    std::vector<double> residual(model.size());
+    for (const Target& t : model.targets()) {
+      const CaseRecord& r = c.records[t.record];
+      const bool hums = r.data.channels[t.channel].name == "A.x";
+      for (std::size_t k = 0; k < t.count; ++k) {
+        const double time = r.data.start + static_cast<double>(k) / r.data.rate;
+        residual[t.first + k] =
+            Normal(3, 1, t.first + k) + (hums ? std::sin(2 * kPi * tone * time + 0.4) : 0);
+      }
+    }
+    const std::vector<double> tones = FindPeaks(model, residual).tones.at("A");
+    ASSERT_FALSE(tones.empty()) << tone;
+    EXPECT_NEAR(tones[0], tone, 0.5);
+  }
+}
+
 // Noise, and an error of all frequencies, leave no tone that would be worth a simulation; what the third harmonic
 // holds speaks for its fundamental.
 TEST(ResidualPeaks, TriesOnlyTonesThatHoldAShare) {

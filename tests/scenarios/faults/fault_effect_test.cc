@@ -151,7 +151,7 @@ std::string FaultMessage(const std::string& text) {
   constexpr FaultTarget kAny[] = {FaultTarget::kCoil, FaultTarget::kAxis, FaultTarget::kRig};
   std::map<std::string, double> parameters;
   try {
-    ReadFault(root.Tables("fault")[0], FaultKindNames(kAny), &parameters);
+    ReadFault(root.Tables("fault")[0], FaultKindNames(kAny), ReferenceLanesRig(), &parameters);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -170,6 +170,8 @@ TEST(FaultFile, MistakesSayWhatIsAllowed) {
   EXPECT_THAT(FaultMessage("kind = \"bus-sag\"\nparameters = { duration = 0.0 }"),
               HasSubstr("duration = 0 s, allowed: above 0 to inf s"));
   EXPECT_EQ(FaultMessage("kind = \"bus-sag\"\nparameters = { duration = inf }"), "no mistake");
+  EXPECT_THAT(FaultMessage("kind = \"bus-sag\"\nparameters = { voltage = 60.0 }"),
+              HasSubstr("voltage = 60 V, allowed: 0 to below 30 V"));
   EXPECT_EQ(FaultMessage("kind = \"position-sensor\"\nparameters = { stuck = true }"),
             "no mistake");
 }

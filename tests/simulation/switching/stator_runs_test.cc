@@ -117,6 +117,24 @@ INSTANTIATE_TEST_SUITE_P(
                       Bench{"e_core_and_thrust.toml", "e_core_and_thrust_coil_opens.toml",
                             "Z.coil1"}));
 
+// Coil 1 carries the rotor: without it no currents of the other three give the forces, and the rotor falls.
+TEST(StatorRuns, WhatNothingCanCarryIsNotRedistributed) {
+  const RigParameters rig = ReadRig(kExamples + "series_pairs.toml");
+  Scenario s = ReadScenario(kExamples + "series_pairs_coil_opens.toml", rig);
+  s.duration = 0.1;
+  s.faults.front().time = 0.05;
+  s.faults.front().target = "A.coil1";
+  const RunResult r = Simulate(rig, s, {});
+  const auto of_kind = [&](const std::string& kind) {
+    return std::find_if(r.events.begin(), r.events.end(),
+                        [&](const RunEvent& e) { return e.kind == kind; });
+  };
+  ASSERT_NE(of_kind("not_redistributed"), r.events.end());
+  EXPECT_EQ(of_kind("not_redistributed")->fault_class, "none");
+  EXPECT_EQ(of_kind("redistributed"), r.events.end());
+  EXPECT_EQ(r.metrics.redistribution_delay, -1);
+}
+
 // Every coil of six may be the one that breaks.
 TEST(StatorRuns, AnyCoilOfSix) {
   const RigParameters rig = ReadRig(kExamples + "six_poles.toml");
@@ -134,7 +152,8 @@ TEST(StatorRuns, AnyCoilOfSix) {
 // What is not there yet is said, not computed.
 TEST(StatorRuns, OtherFidelitiesAreRefused) {
   const RigParameters rig = ReadRig(kExamples + "six_poles.toml");
-  const Scenario s = ReadScenario(kExamples + "six_poles_coil_opens.toml", rig);
+  Scenario s = ReadScenario(kExamples + "six_poles_coil_opens.toml", rig);
+  s.expect = {};  // of fault detection, which they do not have either
   SimulateOptions o;
   o.fidelity = Fidelity::kReference;
   try {

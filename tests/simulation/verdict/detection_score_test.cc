@@ -63,8 +63,45 @@ TEST(DetectionScore, WhatComesAfterTheRotorWasLostIsNotJudged) {
     EXPECT_EQ(score.judged(), 1u) << lost;
     EXPECT_EQ(score.detected(), 1u) << lost;  // late, but the fault was there before
     EXPECT_EQ(score.false_alarms, 1u) << lost;
-    EXPECT_FALSE(score.all_detected()) << lost;
+    EXPECT_TRUE(score.all_detected()) << lost;  // all that are judged
   }
+}
+
+// The second fault comes to a rotor that is lost: the first one alone decides, and the text says so.
+TEST(DetectionScore, ExpectationsSkipFaultsThatAreNotJudged) {
+  Scenario s;
+  s.faults = {Fault(1, "A.coil3"), Fault(3, "B.coil3")};
+  s.expect.detected_within = 0.5;
+  s.expect.classified = "open";
+  RunResult r;
+  r.events = {Alarm(1.25, "A.coil3"),
+              Class(1.25, "A.coil3", "open"),
+              {2, "drop", "A", "", 0},
+              Alarm(3.25, "B.coil3"),
+              Class(3.25, "B.coil3", "partial-short")};
+  auto results = CheckExpectations(s, r);
+  EXPECT_TRUE(AllMet(results));
+  EXPECT_EQ(results[0].got, "250 ms (1 fault not judged: the rotor was lost)");
+  EXPECT_EQ(results[1].got, "open (1 fault not judged: the rotor was lost)");
+  // A fault that is judged still decides.
+  s.faults[0].target = "A.coil4";
+  EXPECT_FALSE(CheckExpectations(s, r)[0].met);
+  EXPECT_FALSE(CheckExpectations(s, r)[1].met);
+  // Nothing that is judged shows nothing.
+  s.faults = {Fault(3, "B.coil3")};
+  results = CheckExpectations(s, r);
+  for (const ExpectResult& e : results) {
+    EXPECT_FALSE(e.met) << e.key;
+    EXPECT_EQ(e.got, "not judged: the rotor was lost") << e.key;
+  }
+}
+
+// Told is what did not happen.
+TEST(DetectionScore, WhatIsNotRedistributedHasNoDelay) {
+  const DetectionScore score = ScoreDetection(
+      {Fault(1, "A.coil1")}, {Alarm(1.25, "A.coil1"), {1.25, "not_redistributed", "A", "none", 0}});
+  EXPECT_EQ(score.faults[0].redistributed, std::nullopt);
+  EXPECT_EQ(score.longest_redistribution(), -1);
 }
 
 TEST(DetectionScore, TheLastClassCounts) {
