@@ -15,7 +15,7 @@ using testing::kClampedRecord;
 using testing::Measured;
 using testing::SamplesOf;
 
-constexpr const char* kTurning = "multisine at 60 Hz";
+constexpr const char* kRotorTurns = "multisine at 60 Hz";
 
 TEST(GateCommands, SetPointsOfAHeldRotor) {
   const Case sound = Measured();
@@ -40,10 +40,10 @@ TEST(GateCommands, ACommandThatTheCurrentFollowsIsNoMistakeOfTheLogger) {
 }
 
 TEST(GateCommands, TheAngleOfAPrescribedSpeed) {
-  const Case sound = Measured({}, 0, kTurning);
+  const Case sound = Measured({}, 0, kRotorTurns);
   for (const double factor : {180 / kPi, 1 / kTurn, -1.0}) {
     Case c = sound;
-    for (double& v : SamplesOf(c, kTurning, "theta")) v = factor * v + 0.7;
+    for (double& v : SamplesOf(c, kRotorTurns, "theta")) v = factor * v + 0.7;
     const auto faults = FaultsOf(c);
     ExpectOnly(faults, factor < 0 ? "sign" : "unit", "theta");
     EXPECT_DOUBLE_EQ(faults[0].factor, factor);
@@ -53,8 +53,8 @@ TEST(GateCommands, TheAngleOfAPrescribedSpeed) {
 // An encoder that starts again after every turn counts as it should, in degrees it does not.
 TEST(GateCommands, AnAngleThatStartsAgainAfterEveryTurn) {
   for (const double turn : {kTurn, 360.0}) {
-    Case c = Measured({}, 0, kTurning);
-    for (double& v : SamplesOf(c, kTurning, "theta")) v = std::fmod(v * turn / kTurn, turn);
+    Case c = Measured({}, 0, kRotorTurns);
+    for (double& v : SamplesOf(c, kRotorTurns, "theta")) v = std::fmod(v * turn / kTurn, turn);
     const auto faults = FaultsOf(c);
     if (turn == kTurn)
       EXPECT_TRUE(faults.empty()) << FaultText(faults[0]);
