@@ -65,6 +65,7 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
   CheckSpikes(model, r, columns, out);
   CheckHeld(model, r, columns, out);
   CheckSpeed(model, r, out);
+  CheckDrives(model, r, out);
   if (!Predicted(model, r)) {
     CheckHeldFromStart(model, r, columns, out);
     return out;

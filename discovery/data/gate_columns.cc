@@ -8,6 +8,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/data/noise_estimate.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -20,6 +21,19 @@ double MostZero(const CaseModel& model, const std::string& channel) {
   const auto own = declared.find(channel);
   const double usual = UsualZero(model.data().rig, channel);
   return kZeroSds * (own == declared.end() ? usual : std::max(own->second, usual));
+}
+
+double LimitOf(const RigParameters& rig, const std::string& channel) {
+  const auto id = ParseChannel(channel);
+  if (!id) return kInfinity;
+  if (id->kind == ChannelKind::kCoilCurrent || id->kind == ChannelKind::kSetPoint)
+    return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
+  if (id->kind == ChannelKind::kDuty) return 1;
+  if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& axis : b.Axes())
+      if (axis == channel) return 2 * GapOf(b);
+  return kInfinity;
 }
 
 double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero) {

@@ -12,6 +12,9 @@ namespace ambrig {
 /// more are not told apart.
 double MostZero(const CaseModel& model, const std::string& channel);
 
+/// Largest value that the channel can show [SI]; infinity where nothing limits it.
+double LimitOf(const RigParameters& rig, const std::string& channel);
+
 /// rms of measured minus predicted [floors], less a constant of at most `zero` [SI].
 double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero);
 
@@ -51,6 +54,10 @@ void CheckHeldFromStart(const CaseModel& model, std::size_t record,
 /// Units, signs and exchanges of the set-points of a held rotor, which its scenario commands and no model predicts.
 void CheckCommands(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+
+/// The units of what drives a record with imposed motion or currents instead of being predicted: only values that cannot be
+/// show them.
+void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 
 /// The unit and the sign of the measured angle of a prescribed speed.
 void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);

@@ -6,6 +6,7 @@
 #include "discovery/data/gate_columns.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/model/record_rows.h"
+#include "discovery/model/record_traits.h"
 
 namespace ambrig {
 
@@ -68,6 +69,30 @@ void CheckCommands(const CaseModel& model, const Hypothesis& h, std::size_t reco
   std::vector<GateColumn> commands = CommandColumns(model, h, record, columns);
   CheckUnits(model, record, commands, out);
   CheckSwaps(model, record, commands, out);
+}
+
+void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
+  constexpr double kMostRows = 0.5;  // a unit is wrong in all of them, also in those near zero
+  constexpr double kBeyond = 2;      // times the largest value that the channel can show
+  const CaseRecord& r = model.data().records[record];
+  if (r.imposed == Imposed::kNothing) return;
+  for (const Channel& c : r.data.channels) {
+    const double limit = kBeyond * LimitOf(model.data().rig, c.name);
+    if (IsPredicted(r, c.name) || !std::isfinite(limit)) continue;
+    std::vector<double> sizes;
+    for (const double v : c.samples)
+      if (std::isfinite(v)) sizes.push_back(std::abs(v));
+    if (sizes.empty() || QuantileOf(sizes, kMostRows) < limit) continue;
+    const double largest = QuantileOf(sizes, 1);
+    for (const double factor : {1e3, 1e6}) {
+      if (largest / factor > limit) continue;
+      DataFault f = FaultLeaving(r, c.name, "unit", limit / largest);
+      f.factor = factor;
+      f.mend = UnitLine(r, c.name, factor);
+      out.push_back(f);
+      break;
+    }
+  }
 }
 
 }  // namespace ambrig

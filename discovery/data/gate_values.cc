@@ -11,7 +11,6 @@
 #include "discovery/data/gate_set_points.h"
 #include "discovery/data/held_values.h"
 #include "discovery/data/noise_estimate.h"
-#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -23,20 +22,6 @@ constexpr std::size_t kClipRun = 4;    // equal neighbours at the extreme
 constexpr std::size_t kCoarse = 3;     // readings that a converter repeats usually
 constexpr double kClipShare = 0.005;   // of the rows
 constexpr double kWithinShare = 0.25;  // of the rows of a stretch that no limit explains
-
-/// Largest value that the channel can show [SI]; infinity where nothing limits it.
-double LimitOf(const RigParameters& rig, const std::string& channel) {
-  const auto id = ParseChannel(channel);
-  if (!id) return kInfinity;
-  if (id->kind == ChannelKind::kCoilCurrent || id->kind == ChannelKind::kSetPoint)
-    return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
-  if (id->kind == ChannelKind::kDuty) return 1;
-  if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
-  for (const BearingParameters& b : rig.bearings)
-    for (const std::string& axis : b.Axes())
-      if (axis == channel) return 2 * GapOf(b);
-  return kInfinity;
-}
 
 const Channel& ChannelOf(const CaseRecord& r, const std::string& name) {
   return *r.data.Find(name);

@@ -12,7 +12,9 @@ namespace {
 using testing::ExpectOnly;
 using testing::FaultsOf;
 using testing::kClampedRecord;
+using testing::kStepRecord;
 using testing::Measured;
+using testing::RecordNamed;
 using testing::SamplesOf;
 
 constexpr const char* kRotorTurns = "multisine at 60 Hz";
@@ -37,6 +39,25 @@ TEST(GateCommands, ACommandThatTheCurrentFollowsIsNoMistakeOfTheLogger) {
   for (const char* channel : {"A.s3", "A.i3"})
     for (double& v : SamplesOf(c, kClampedRecord, channel)) v *= 2;
   for (const DataFault& f : FaultsOf(c)) EXPECT_NE(f.channel, "A.s3") << FaultText(f);
+}
+
+// Measured positions that drive a record are predicted by nothing: millimetres read as metres lie outside the machine.
+TEST(GateCommands, DrivesOfARecordThatCannotBe) {
+  for (const bool wrong : {false, true}) {
+    Case c = Measured();
+    c.records[RecordNamed(c, kStepRecord)].imposed = Imposed::kMotion;
+    std::vector<double>& x = SamplesOf(c, kStepRecord, "A.x");
+    for (double& v : x) v = wrong ? 1e3 * (v + 2e-5) : v + 2e-5;
+    const auto faults = FaultsOf(c);
+    if (!wrong) {
+      EXPECT_TRUE(faults.empty()) << FaultText(faults[0]);
+      continue;
+    }
+    ASSERT_FALSE(faults.empty());
+    EXPECT_EQ(faults[0].channel, "A.x");
+    EXPECT_EQ(faults[0].fault, "unit");
+    EXPECT_DOUBLE_EQ(faults[0].factor, 1e3);
+  }
 }
 
 TEST(GateCommands, TheAngleOfAPrescribedSpeed) {
