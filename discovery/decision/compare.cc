@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/data/lonely_rows.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/screen.h"
 
@@ -72,6 +73,10 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   model.noise_model = c.noise;
   const NoiseFloor floor = FindFloor(model, h);
   c.data = InspectDataBelow(model, floor.clean, h, stated);
+  const std::vector<LonelyRow> lonely = LonelyRowsOf(model, floor.clean);
+  const std::vector<SampleSpan> alone = SpansOf(lonely);
+  model.LeaveOut(alone);
+  c.unpredictable.insert(c.unpredictable.end(), alone.begin(), alone.end());
   c.unpredictable.insert(c.unpredictable.end(), floor.unpredictable.begin(),
                          floor.unpredictable.end());
   c.predicted = floor.clean;
@@ -103,6 +108,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   }
   c.words = lost;
   for (const DataFault& f : c.data) c.words.push_back("data: " + FaultText(f));
+  for (const std::string& line : LonelyRemarks(model.data(), lonely)) c.words.push_back(line);
   for (const std::string& line : NoiseRemarks(c.noise)) c.words.push_back(line);
   for (const std::string& line : Words(c)) c.words.push_back(line);
   return c;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "discovery/data/lonely_rows.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
@@ -60,6 +61,10 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   out_.effective_sample_size = floor.effective_sample_size;
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
+  const std::vector<LonelyRow> lonely = LonelyRowsOf(full_, floor.clean);
+  full_.LeaveOut(SpansOf(lonely));
+  model_.LeaveOut(SpansOf(lonely));
+  for (const std::string& line : LonelyRemarks(full_.data(), lonely)) out_.warnings.push_back(line);
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);
