@@ -20,6 +20,12 @@ namespace {
 /// Output that was not read to its end (`ambrig parameters | head`) is no error.
 bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE; }
 
+/// The disk that standard output goes to is full or broken: all other outputs name their file themselves.
+bool CannotPrint(const std::system_error& e) {
+  const int code = e.code().value();
+  return code == ENOSPC || code == EDQUOT || code == EFBIG || code == EIO;
+}
+
 /// One line for the person, the same for the program that listens.
 int Fail(int code, const std::string& what) {
   const std::string line = ambrig::PrintableLine(what);
@@ -45,15 +51,16 @@ int main(int argc, char** argv) {
   } catch (const ambrig::NoSolution& e) {
     return Fail(2, e.what());
   } catch (const ambrig::Interrupted&) {
-    fmt::print(stderr, "ambrig: interrupted, nothing half-written is left\n");
-    ambrig::Events().Done(130, "interrupted");
-    return 130;
+    ambrig::TellInterrupted();
+    return ambrig::kInterruptedCode;
   } catch (const std::filesystem::filesystem_error& e) {
     return Fail(2, fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::bad_alloc&) {
     return Fail(2, "this needs more memory than the machine has");
   } catch (const std::system_error& e) {
     if (IsClosedPipe(e)) return 0;
+    if (CannotPrint(e))
+      return Fail(2, fmt::format("cannot write standard output: {}", e.code().message()));
     return Fail(3, fmt::format("program error: {}", e.what()));
   } catch (const std::exception& e) {
     return Fail(3, fmt::format("program error: {}", e.what()));

@@ -8,6 +8,8 @@
 
 #include "core/base/toml_checked.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
+#include "rig/true_rig.h"
 
 namespace ambrig {
 
@@ -93,6 +95,26 @@ void CheckSpreads(const TomlTable& root, const RigParameters& rig) {
   }
 }
 
+/// Fitted values, each in its range, that contradict each other: of what the reader asks of the drawing's.
+void CheckFittedTogether(const TomlTable& root, const RigParameters& rig) {
+  RigParameters plant = rig;
+  for (const Tolerance& k : rig.tolerances)
+    if (!std::isnan(k.true_value) &&
+        (k.path.starts_with("bearings.") || k.path.starts_with("rotor.inertia_")))
+      SetParameter(plant, k.path, k.true_value);
+  const RotorParameters& r = plant.rotor;
+  if (rig.rotor_kind == "rigid" && r.inertia_polar > 2 * r.inertia_transverse)
+    throw InputError(fmt::format(
+        "{} = {} kg m2 with the fitted values, allowed: at most twice inertia_transverse = {} (no "
+        "body has more)",
+        WhereOf(root, "rotor.inertia_polar"), r.inertia_polar, r.inertia_transverse));
+  for (const BearingParameters& b : plant.bearings)
+    if (const double gap = GapOf(b); b.auxiliary && b.auxiliary->clearance >= gap)
+      throw InputError(fmt::format(
+          "{} = {} m with the fitted values, allowed: larger than the auxiliary clearance of {} m",
+          WhereOf(root, "bearings." + b.name + ".gap"), gap, b.auxiliary->clearance));
+}
+
 }  // namespace
 
 std::pair<double, double> ShaftExtent(const RigParameters& rig) {
@@ -116,6 +138,7 @@ std::pair<double, double> ShaftExtent(const RigParameters& rig) {
 
 void CheckRig(const TomlTable& root, const RigParameters& rig) {
   CheckSpreads(root, rig);
+  if (HasCalibration(rig)) CheckFittedTogether(root, rig);
   if (const auto controller = root.Table("controller")) {
     CheckBias(*controller, rig, rig.controller.bias_current);
     CheckForce(*controller, rig, rig.controller.pid.f_max);

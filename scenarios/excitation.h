@@ -21,6 +21,10 @@ struct Excitation {
   std::string where;  // file:line for errors
 
   double Value(double t) const;
+  /// Where the row after the last sample would stand [s]; from there on the last value holds.
+  double SamplesEnd() const {
+    return sample_start + static_cast<double>(samples.size()) / sample_rate;
+  }
 };
 
 /// Reads one [[excitation]]; relative sample files are looked up beside the scenario.

@@ -71,7 +71,32 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
   t->RejectUnknownKeys();
 }
 
-void ReadExcitations(const TomlTable& root, const Targets& targets, Scenario& s) {
+/// Above half the rate at which a port takes its commands a signal comes out as another, slower one.
+void CheckSampled(const TomlTable& t, const Excitation& e, const RigParameters& rig) {
+  const bool coil = e.port == "current" || e.port == "duty";
+  const double most = 0.5 * (coil ? rig.amplifier.switching_frequency : rig.controller.rate);
+  const auto check = [&](const char* key, double f) {
+    if (f > most)
+      t.Fail(key, fmt::format("= {} Hz, allowed: at most {} Hz, half the {} (port {})", f, most,
+                              coil ? "switching frequency" : "controller's rate", e.port));
+  };
+  if (e.kind == "sine") check("frequency", e.frequency);
+  if (e.kind == "chirp") check("f0", e.f0);
+  if (e.kind == "chirp") check("f1", e.f1);
+  for (const double f : e.frequencies) check("frequencies", f);
+}
+
+/// A file of other times than the excitation's would command nothing, or one value throughout.
+void CheckCovered(const TomlTable& t, const Excitation& e, double duration) {
+  if (e.kind != "samples") return;
+  const double from = std::max(e.start, 0.0), to = std::min(e.stop, duration);
+  if (e.sample_start < to && e.SamplesEnd() > from) return;
+  t.Fail("file", fmt::format("holds {} s to {} s, allowed: times of the excitation, {} s to {} s",
+                             e.sample_start, e.SamplesEnd(), from, to));
+}
+
+void ReadExcitations(const TomlTable& root, const Targets& targets, const RigParameters& rig,
+                     Scenario& s) {
   for (const TomlTable& t : root.Tables("excitation")) {
     Excitation e = ReadExcitation(t, Beside(s.file, "."), s.duration);
     const bool coil = e.port == "current" || e.port == "duty";
@@ -79,6 +104,8 @@ void ReadExcitations(const TomlTable& root, const Targets& targets, Scenario& s)
     if (std::find(allowed.begin(), allowed.end(), e.target) == allowed.end())
       t.Fail("target",
              fmt::format("= \"{}\" on port {}, allowed: {}", e.target, e.port, Join(allowed)));
+    CheckSampled(t, e, rig);
+    CheckCovered(t, e, s.duration);
     s.excitations.push_back(e);
   }
 }
@@ -186,7 +213,8 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   s.seed = static_cast<std::uint64_t>(seed);
   s.noise = root.Bool("noise", true);
   s.fault_tolerant = root.Bool("fault_tolerance", true);
-  s.redistribution = root.Choice("redistribution", s.redistribution, "auto,matrix,force-by-force");
+  s.redistribution =
+      root.Choice("redistribution", s.redistribution, "auto, matrix, force-by-force");
   s.current_transition = root.Choice("hand_over", s.current_transition, kCurrentTransitionNames);
   s.stiffness_compensation = root.Bool("stiffness_compensation", true);
   ReadRetunedController(root, rig, s);
@@ -194,7 +222,7 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   const Targets targets = TargetsOfRig(rig);
   ReadStart(root, rig, s);
   ReadSpeed(root, s);
-  ReadExcitations(root, targets, s);
+  ReadExcitations(root, targets, rig, s);
   ReadLoads(root, rig, s);
   ReadFaults(root, targets, rig, s);
   ReadSwitches(root, rig, s);

@@ -63,6 +63,22 @@ void NoteUnwatched(const Scenario& scenario, const std::string& why_unwatched, R
       "no fault detection in this run, so nothing is done about faults: {}", why_unwatched));
 }
 
+/// What a sampled command is where its file has no row.
+void NoteUncovered(const Scenario& scenario, RunResult& result) {
+  for (const Excitation& e : scenario.excitations) {
+    if (e.kind != "samples") continue;
+    const double row = 1 / e.sample_rate, to = std::min(e.stop, scenario.duration);
+    if (e.sample_start > std::max(e.start, 0.0) + row)
+      result.notes.push_back(
+          fmt::format("the samples of {} begin at {:.6g} s: nothing is commanded before", e.target,
+                      e.sample_start));
+    if (e.SamplesEnd() < to - row)
+      result.notes.push_back(
+          fmt::format("the samples of {} end at {:.6g} s: their last value holds until {:.6g} s",
+                      e.target, e.SamplesEnd(), to));
+  }
+}
+
 RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
                        const SimulateOptions& options) {
   EngineOptions engine;
@@ -129,6 +145,7 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
   ScoreDetection(scenario, result);
   NoteStuckSwitches(rig, scenario, result);
   NoteUnwatched(scenario, why_unwatched, result);
+  NoteUncovered(scenario, result);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;

@@ -6,6 +6,7 @@
 #include "app/commands/analyze_shaft.h"
 #include "app/commands/analyze_text.h"
 #include "app/commands/commands.h"
+#include "app/commands/leave_when_stopped.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/analysis_json.h"
@@ -99,6 +100,7 @@ int RunAnalyze(const AnalyzeCommand& c) {
   if (!c.out.empty()) PrepareFolder(c.out);
   RigAnalysis analysis;
   {
+    const LeaveWhenStopped leave;
     Progress progress("analyze");
     options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
     analysis = Analyse(rig, options);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/commands/leave_when_stopped.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
@@ -180,6 +181,7 @@ int AnalyseShaftFile(const ShaftRequest& r, const ShaftCommand& c, const CommonO
   const BeamFile file = ReadShaft(r.file, &ross, &left_out, &tolerances);
   ShaftAnalysis a;
   {
+    const LeaveWhenStopped leave;
     Progress progress("analyze");
     options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
     a = AnalyseShaft(name, file, tolerances, options);

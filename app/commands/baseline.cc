@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
+#include "app/commands/screen.h"
 #include "core/base/errors.h"
 #include "core/base/json_file.h"
 #include "core/record/channels.h"
@@ -25,11 +27,30 @@ bool KeptByDefault(const std::string& name) {
          id->kind == ChannelKind::kSpeed || id->kind == ChannelKind::kBus;
 }
 
+bool FitsOneOf(const std::vector<std::string>& patterns, const std::string& name) {
+  RecordTolerances all;
+  for (const std::string& p : patterns) all.patterns.emplace_back(p, ChannelTolerance{1});
+  return all.Of(name).absolute > 0;
+}
+
 bool Kept(const BaselineOptions& o, const std::string& name) {
-  if (o.channels.empty()) return KeptByDefault(name);
-  RecordTolerances patterns;
-  for (const std::string& p : o.channels) patterns.patterns.emplace_back(p, ChannelTolerance{1});
-  return patterns.Of(name).absolute > 0;
+  return o.channels.empty() ? KeptByDefault(name) : FitsOneOf(o.channels, name);
+}
+
+/// Channels of all baselines of the folder; one that cannot be read is told where it is compared.
+std::set<std::string> StoredChannels(const std::string& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!entry->path().string().ends_with(".baseline.h5")) continue;
+    try {
+      for (const Channel& c : ReadHdf5(entry->path().string()).channels) names.insert(c.name);
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  return names;
 }
 
 }  // namespace
@@ -82,6 +103,19 @@ RecordTolerances BaselineTolerances(const BaselineOptions& o) {
   RecordTolerances t;
   t.all.relative = 1e-6;
   return t;
+}
+
+void RequireTolerancesFit(const BaselineOptions& o) {
+  const std::set<std::string> stored = StoredChannels(o.folder);
+  if (stored.empty()) return;
+  std::string all;
+  for (const std::string& name : stored) all += (all.empty() ? "" : ", ") + name;
+  for (const auto& [pattern, tolerance] : BaselineTolerances(o).patterns)
+    if (std::ranges::none_of(stored,
+                             [&](const std::string& name) { return FitsOneOf({pattern}, name); }))
+      throw InputError(fmt::format(
+          "{}: channel.\"{}\" fits no channel of the baselines, allowed: {}",
+          (fs::path(o.folder) / "tolerances.toml").string(), pattern, Shortened(all, 300)));
 }
 
 RunDifference CompareToBaseline(const RunFiles& baseline, const RunFiles& now,

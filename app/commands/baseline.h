@@ -30,6 +30,9 @@ RunFiles ReadBaseline(const std::string& file);
 /// 6e-8) and events at the same instants.
 RecordTolerances BaselineTolerances(const BaselineOptions& o);
 
+/// A tolerance that fits no channel of any baseline of the folder is misspelt. @throws InputError
+void RequireTolerancesFit(const BaselineOptions& options);
+
 /// The stored record beside the new one, channels that the baseline has.
 RunDifference CompareToBaseline(const RunFiles& baseline, const RunFiles& now,
                                 const RecordTolerances& t);

@@ -11,6 +11,7 @@
 #include "core/base/read_file.h"
 #include "core/record/read_record.h"
 #include "core/record/text_table.h"
+#include "core/record/time_base.h"
 
 namespace ambrig {
 
@@ -85,12 +86,14 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
   return out;
 }
 
-/// The columns of a text file that has no times; nothing when it is no such file.
+/// The columns of a text file that has no times; nothing when it is no such file. One whose times cannot be used is none.
 std::optional<Record> StaticColumns(const std::string& file) {
   try {
     Record out;
     out.channels = ReadTextTable(file, ReadFile(file)).columns;
     if (out.channels.size() < 2 || out.rows() < 2) return {};
+    if (std::ranges::any_of(out.channels, [](const Channel& c) { return IsTimeName(c.name); }))
+      return {};
     return out;
   } catch (const std::runtime_error&) {
     return {};
@@ -109,7 +112,11 @@ int RunChannels(const ChannelsCommand& o) {
       const auto table = StaticColumns(file);
       if (!table) throw;
       fmt::print("{}: a table without times\n", file);
-      files.push_back({{"file", file}, {"format", "table"}, {"record", RecordJson(*table)}});
+      files.push_back({{"file", file},
+                       {"format", "table"},
+                       {"record", RecordJson(*table)},
+                       {"frequency_responses", ResponsesJson({})},
+                       {"notes", nlohmann::ordered_json::array()}});
       fmt::print("  for a [[record]] with kind = \"static\" (docs/guide/bench_records.md)\n");
       continue;
     }

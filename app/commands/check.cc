@@ -79,7 +79,9 @@ CheckRow CheckOne(const std::string& file, const BaselineOptions& baseline) {
     const Scenario scenario = ReadScenario(file, rig);
     row.name = scenario.name;
     if (!scenario.expect.any() && baseline.folder.empty())
-      throw InputError(fmt::format("{}: has no [expect]", file));
+      throw InputError(fmt::format(
+          "{}: {}, allowed: an expectation there, or --baseline DIR", file,
+          HasExpectations(file) ? "nothing stands in its [expect]" : "has no [expect]"));
     SimulateOptions options;
     options.stop = &interrupted;
     RunResult result = Simulate(rig, scenario, options);
@@ -177,6 +179,7 @@ void CheckBaselineOutputs(const CheckOptions& options, const std::vector<std::st
     throw InputError("--accept: allowed together with --baseline DIR");
   if (o.folder.empty()) return;
   if (o.accept) PrepareFolder(o.folder);
+  if (!o.accept) RequireTolerancesFit(o);
   std::vector<std::string> outputs{DifferencePageOf(o)};
   if (o.accept)
     for (const std::string& file : files) outputs.push_back(BaselineFile(o, file));

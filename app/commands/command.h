@@ -12,6 +12,10 @@ namespace ambrig {
 /// Set by Ctrl-C; every long work looks at it.
 inline std::atomic<bool> interrupted{false};
 
+inline constexpr int kInterruptedCode = 130;
+/// The line of a work that was ended, on stderr and for who listens to events.
+void TellInterrupted();
+
 /// A command's work; returns the exit code.
 using Work = std::function<int()>;
 

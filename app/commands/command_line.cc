@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 
 #include "app/commands/commands.h"
 #include "app/commands/screen.h"
@@ -97,6 +99,15 @@ std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>&
                      near.empty() ? "" : fmt::format(", did you mean {}?", near), names);
 }
 
+/// What stands in the buffer of standard output is a result too. A closed one (`>&-`) was not wanted.
+int Printed(int code) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  const int why = errno != 0 ? errno : EIO;
+  if (why == EBADF) return code;
+  throw std::system_error(why, std::generic_category());
+}
+
 }  // namespace
 
 int RunCommandLine(int argc, char** argv) {
@@ -112,14 +123,14 @@ int RunCommandLine(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);
+    if (e.get_exit_code() == 0) return Printed(app.exit(e));
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     fmt::print(stderr, "ambrig: {}\n", PrintableLine(OptionComplaint(app, arguments, e)));
     return 2;
   }
-  if (work) return work();
+  if (work) return Printed(work());
   fmt::print("{}", kStart);
-  return 0;
+  return Printed(0);
 }
 
 }  // namespace ambrig

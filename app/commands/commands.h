@@ -13,7 +13,7 @@
 namespace ambrig {
 
 inline constexpr const char* kForceHelp =
-    "overwrite also files that ambrig did not make, or that somebody changed since";
+    "overwrite also files that ambrig did not make, and TOML that somebody changed since";
 
 /// Options that every command has.
 struct CommonOptions {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/commands/commands.h"
@@ -30,12 +31,16 @@ std::string FileName(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
+std::string ErrorOverNoise(double ratio, int digits) {
+  return std::isfinite(ratio) ? fmt::format("{:.{}f}", ratio, digits) : "-";
+}
+
 void PrintRecord(const RecordComparison& r) {
   const ChannelError* worst = nullptr;
   for (const ChannelError& e : r.channels)
     if (!worst || e.ratio > worst->ratio) worst = &e;
-  fmt::print("{:<22} {:<28} {:>7.2f}  {}\n", Shortened(FileName(r.data), 22),
-             Shortened(r.scenario, 28), r.ratio,
+  fmt::print("{:<22} {:<28} {:>7}  {}\n", Shortened(FileName(r.data), 22),
+             Shortened(r.scenario, 28), ErrorOverNoise(r.ratio, 2),
              worst ? fmt::format("{} {:.2f}", worst->channel, worst->ratio) : "-");
   for (const auto& [block, ratio] : r.blocks)
     fmt::print("    block {:<40} {:>7.2f}\n", block, ratio);
@@ -47,10 +52,11 @@ void PrintComparison(const Comparison& comparison) {
   for (const RecordComparison& r : comparison.records) PrintRecord(r);
   const bool unseen = std::any_of(comparison.records.begin(), comparison.records.end(),
                                   [](const RecordComparison& r) { return r.validate; });
-  fmt::print("error over noise, all records: {:.3f}{}\n", comparison.ratio,
-             unseen ? fmt::format(" (to be fitted {:.3f}, unseen {:.3f})", comparison.ratio_fit,
-                                  comparison.ratio_validate)
-                    : "");
+  fmt::print(
+      "error over noise, all records: {}{}\n", ErrorOverNoise(comparison.ratio, 3),
+      unseen ? fmt::format(" (to be fitted {}, unseen {})", ErrorOverNoise(comparison.ratio_fit, 3),
+                           ErrorOverNoise(comparison.ratio_validate, 3))
+             : "");
   for (const std::string& w : comparison.words) fmt::print("{}\n", Wrapped("  " + w, 4));
   if (const std::string text = BlockText(comparison); !text.empty())
     fmt::print("{}\n", Wrapped("  " + text, 4));

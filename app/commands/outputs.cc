@@ -28,6 +28,7 @@ void RefuseNamedPipe(const std::string& path) {
 
 /// Creates a temporary file beside the path and removes it. @throws InputError with the reason.
 void TryToWrite(const std::string& path) {
+  if (path.empty()) throw InputError("a file without a name, allowed: a file");
   RefuseNamedPipe(path);
   if (!IsWrittenInPlace(path)) AtomicFile probe(path);
 }
@@ -117,7 +118,7 @@ void WriteMarkedText(const std::string& file, const std::string& command, const 
 
 bool ChangedSinceWritten(const std::string& text) {
   const auto at = text.rfind(kHashLine);
-  return at != std::string::npos && text.substr(at + kHashLine.size()) !=
+  return at == std::string::npos || text.substr(at + kHashLine.size()) !=
                                         HashText(std::string_view(text).substr(0, at)) + "\n";
 }
 

@@ -125,6 +125,11 @@ RunInput FromCampaign(const std::string& file, long long row) {
 /// Memory, rate and output files, before any work.
 void CheckBefore(const RunInput& in, const RunOptions& options) {
   if (options.rate > 0) CheckRecordRate(in.rig, options.rate, "--rate");
+  if (options.rate > 0 && options.rate * in.scenario.duration < 1)
+    throw InputError(
+        fmt::format("--rate = {} Hz, allowed: at least {:g} Hz, one row in the "
+                    "duration of {} s",
+                    options.rate, 1 / in.scenario.duration, in.scenario.duration));
   CheckRunSize(in.rig, in.scenario, options.rate, options.long_runs,
                FidelityByName(options.fidelity));
   const std::string stem = (std::filesystem::path(options.out) / in.stem).string();
@@ -155,6 +160,8 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   WriteHdf5(result.record, stem.string() + ".h5");
   if (options.csv) WriteCsv(result.record, stem.string() + ".csv");
   auto json = RunJson(scenario, result, expect);
+  const std::string doubtful = DoubtfulModelNote(rig, result);
+  if (!doubtful.empty()) json["notes"].push_back(doubtful);
   const auto dropped = FindDroppedModes(rig);
   if (dropped) json["bending_modes"] = DroppedModesJson(*dropped);
   json["provenance"] = Provenance(in.inputs);
@@ -166,8 +173,7 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   }
   if (!options.quiet) {
     PrintTimeline(scenario, result, StationOrbits(rig, result), HasAuxiliary(rig), expect);
-    if (const std::string note = DoubtfulModelNote(rig, result); !note.empty())
-      fmt::print("{}\n", Wrapped("  note: " + note, 8));
+    if (!doubtful.empty()) fmt::print("{}\n", Wrapped("  note: " + doubtful, 8));
     if (dropped)
       fmt::print("{}\n", Wrapped("  bending modes          " + DroppedModesText(*dropped), 25));
     fmt::print("  {:<22} {}.h5 .json{}{}\n", "written", stem.string(), options.csv ? " .csv" : "",

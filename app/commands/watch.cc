@@ -24,6 +24,12 @@ struct WatchCommand {
   bool no_explain = false;
 };
 
+/// A number of an entry; what is unknown or infinite stands as null in it.
+std::string EntryNumber(const nlohmann::ordered_json& e, const char* key) {
+  const auto at = e.find(key);
+  return at != e.end() && at->is_number() ? fmt::format("{:.2f}", at->get<double>()) : "-";
+}
+
 void PrintEntry(const nlohmann::ordered_json& e) {
   const std::string name = e["data"], state = e["state"];
   if (state == "refused") {
@@ -31,17 +37,16 @@ void PrintEntry(const nlohmann::ordered_json& e) {
                Wrapped(Coloured("refused", "red") + ": " + e["error"].get<std::string>(), 4));
     return;
   }
-  fmt::print(
-      "{}\n",
-      Wrapped(
-          fmt::format(
-              "{} (as {}): error {:.2f} times the noise, {:.2f} with its own "
-              "parameters: {}",
-              name, e["of"].get<std::string>(), e.value("ratio", 0.0), e.value("ratio_fitted", 0.0),
-              state == "ok"
-                  ? Coloured("within its bands", "green")
-                  : Coloured(state == "data" ? "the data are wrong" : "left its band", "red")),
-          4));
+  fmt::print("{}\n",
+             Wrapped(fmt::format("{} (as {}): error {} times the noise, {} with its own "
+                                 "parameters: {}",
+                                 name, e["of"].get<std::string>(), EntryNumber(e, "ratio"),
+                                 EntryNumber(e, "ratio_fitted"),
+                                 state == "ok" ? Coloured("within its bands", "green")
+                                               : Coloured(state == "data" ? "the data are wrong"
+                                                                          : "left its band",
+                                                          "red")),
+                     4));
   if (e.contains("data_faults"))
     for (const auto& f : e["data_faults"])
       fmt::print("{}\n", Wrapped("  " + f["text"].get<std::string>(), 4));
@@ -75,6 +80,9 @@ int OnePass(const WatchCommand& o, FolderWatch& watch) {
                  });
   progress.Clear();
   const nlohmann::ordered_json all = document(names);
+  if (!names.empty())
+    for (const nlohmann::ordered_json& w : all["warnings"])
+      fmt::print("{}\n", Wrapped(Coloured("warning", "yellow") + ": " + w.get<std::string>(), 4));
   o.common.WriteJson(all);
   if (!o.common.html.empty()) WriteWatchReport(all, o.common.html);
   if (o.every <= 0 && names.empty())
@@ -136,7 +144,7 @@ void AddWatch(CLI::App& app, Work& work) {
       "For cron: exit code 1 when a new record left its band, has wrong data or was\n"
       "refused; with --every it goes on by itself. A file of the folder repeats the\n"
       "record of the case whose name its own begins with: hover-0412.csv is as\n"
-      "hover.csv. docs/guide/watch.md.");
+      "hover.csv; with a case of one record every file does. docs/guide/watch.md.");
   command->callback([o, &work] { work = [o] { return WatchFolders(*o); }; });
 }
 

@@ -212,7 +212,8 @@ Json FolderWatch::Examine(const Found& file, const Progress& progress) {
     entry["state"] = !state.faults.empty() ? "data" : left.empty() ? "ok" : "left";
     if (entry["state"] == "left" && options_.explain) Explained(text, entry, progress);
   } catch (const InputError& e) {
-    return refuse(e.what());
+    const std::string what = e.what();  // may name the case's line alone
+    return refuse(what.find(file.name) == std::string::npos ? file.name + ": " + what : what);
   }
   return entry;
 }
@@ -227,9 +228,10 @@ std::vector<std::string> FolderWatch::Pass(const Progress& progress,
     const Json entry = Examine(files[k], [&](double f, const std::string& text) {
       progress((static_cast<double>(k) + f) * each, text);
     });
-    Keep(entry);
+    entries_.push_back(entry);
     names.push_back(files[k].name);
     told(entry);
+    journal_->Append(JsonText(entry));  // last: what could not be told is examined again
   }
   return names;
 }

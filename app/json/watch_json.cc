@@ -22,6 +22,9 @@ Json MapJson(const std::map<std::string, double>& values) {
 }
 
 std::string LeftText(const LeftBand& b) {
+  if (b.kind == "channel")
+    return b.name +
+           " says nothing any more: it is empty or stands still, and the reference's does not";
   if (b.kind == "error")
     return fmt::format("the error is {:.2f} times the noise with parameters of its own, was {:.2f}",
                        b.value, b.was);
@@ -83,6 +86,8 @@ RecordState ReferenceFromJson(const Json& json) {
   s.effective_sample_size = json.at("effective_sample_size").get<double>();
   for (const auto& [channel, noise] : json.at("noise").items())
     if (noise.is_number()) s.noise[channel] = noise.get<double>();
+  for (const auto& [channel, ratio] : json.at("floors").items())
+    if (ratio.is_number()) s.floors[channel] = ratio.get<double>();
   for (const auto& [path, p] : json.at("parameters").items())
     if (p.at("value").is_number() && p.at("sd").is_number())
       s.parameters.push_back({path, p.at("unit").get<std::string>(), p.at("value").get<double>(),
@@ -96,11 +101,11 @@ Json LeftJson(const std::vector<LeftBand>& left) {
     out.push_back({{"kind", b.kind},
                    {"name", b.name},
                    {"unit", b.unit},
-                   {"value", b.value},
-                   {"was", b.was},
-                   {"least", b.least},
-                   {"greatest", b.greatest},
-                   {"sds", b.sds},
+                   {"value", FiniteOrNull(b.value)},
+                   {"was", FiniteOrNull(b.was)},
+                   {"least", FiniteOrNull(b.least)},
+                   {"greatest", FiniteOrNull(b.greatest)},
+                   {"sds", FiniteOrNull(b.sds)},
                    {"text", LeftText(b)}});
   return out;
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "app/figures/bench_figures.h"
@@ -38,10 +39,15 @@ std::string BlockMeaning(const std::string& block) {
 }
 
 Cell RatioCell(double ratio) {
+  if (!std::isfinite(ratio)) return {"–"};
   return {fmt::format("{:.2f}", ratio), ratio > 1.5 ? "fail" : ratio > 1.15 ? "warn" : "ok"};
 }
 
 void AddComparisonVerdict(HtmlReport& report, const Comparison& c) {
+  if (!std::isfinite(c.ratio)) {
+    report.Verdict(Verdict::kWarn, "**Nothing is compared**: no row of any record counts.");
+    return;
+  }
   const double unseen = c.ratio_validate > 0 ? c.ratio_validate : c.ratio;
   const std::string numbers =
       c.ratio_validate > 0
@@ -135,7 +141,8 @@ void AddChannelTable(HtmlReport& report, const CaseRecord& record, const RecordC
     const std::string unit = Unit(record, e.channel);
     rows.push_back({e.channel, std::string(ChannelWords(e.channel)), FormatSi(e.rms_error, unit),
                     FormatSi(e.noise, unit), RatioCell(e.ratio),
-                    fmt::format("{:.2f} %", 100 * e.nrmse), fmt::format("{:.2f}", e.whiteness)});
+                    std::isfinite(e.nrmse) ? fmt::format("{:.2f} %", 100 * e.nrmse) : "–",
+                    fmt::format("{:.2f}", e.whiteness)});
   }
   report.BeginDetails(
       fmt::format("All {} channels of {} in numbers", rows.size(), ShortName(r.data)));
@@ -177,7 +184,7 @@ void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record,
 void AddRecord(HtmlReport& report, const View& v, std::size_t record) {
   const RecordComparison& r = v.comparison.records[record];
   report.Heading(fmt::format("{}: {}", ShortName(r.data), r.scenario), 3);
-  report.Text(fmt::format("Error over noise **{:.2f}**, {} record.", r.ratio,
+  report.Text(fmt::format("Error over noise **{}**, {} record.", RatioCell(r.ratio).text,
                           r.validate ? "unseen" : "to be fitted"));
   const CaseRecord& data = v.model.data().records[record];
   if (!OverTime(data)) {

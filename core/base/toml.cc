@@ -142,8 +142,8 @@ double TomlTable::NumberOr(std::string_view key, double fallback, double* sd,
   if (const auto* t = n->as_table()) {
     for (const auto& [k, v] : *t)
       if (k.str() != "value" && k.str() != "sd" && !(true_value && k.str() == "fitted"))
-        throw InputError(
-            fmt::format("{}.{}: unknown key, allowed: value, sd", Where(key), k.str()));
+        throw InputError(fmt::format("{}.{}: unknown key, allowed: value, sd{}", Where(key),
+                                     k.str(), true_value ? ", fitted" : ""));
     const auto* value = t->get("value");
     if (!value || !value->is_number())
       Fail(key,

@@ -70,15 +70,18 @@ class TomlTable {
   /// is kRequired must be present. Tolerances found are appended under this table's path.
   template <class P, std::size_t n>
   void Read(P& p, const Field<P> (&fields)[n], std::vector<Tolerance>* tolerances = nullptr) const {
+    P fitted = p;  // nan where the file has none
     for (const Field<P>& f : fields) {
       double sd = 0, true_value = kRequired;
       p.*f.at = NumberOr(f.key, p.*f.at, &sd, &true_value);
+      fitted.*f.at = true_value;
       if (std::isnan(p.*f.at)) RejectMisspelt(f.key);
       if ((sd > 0 || !std::isnan(true_value)) && tolerances)
         tolerances->push_back(
             {(path().empty() ? "" : path() + ".") + std::string(f.key), sd, true_value});
     }
     CheckRanges(p, fields, [&](std::string_view key) { return Where(key); });
+    CheckFitted(fitted, fields);
   }
 
   /// @throws InputError for the first key that no reader asked for, naming the nearest known one.
@@ -92,6 +95,13 @@ class TomlTable {
   struct Node;
   double NumberOr(std::string_view key, double fallback, double* sd,
                   double* true_value = nullptr) const;
+  /// A calibrated value is the plant's, and must be as possible as the drawing's.
+  template <class P, std::size_t n>
+  void CheckFitted(const P& fitted, const Field<P> (&fields)[n]) const {
+    for (const Field<P>& f : fields)
+      if (const double v = fitted.*f.at; v < f.lo || v > f.hi)
+        ThrowOutOfRange(Where(f.key) + ".fitted", f.key, v, f.unit, f.lo, f.hi, f.doc);
+  }
   explicit TomlTable(std::shared_ptr<const Node> node);
   std::shared_ptr<Node> Inside(const std::string& name) const;
   std::shared_ptr<const Node> node_;

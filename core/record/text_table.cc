@@ -100,7 +100,7 @@ class TableReader {
       const auto bracketed = InBrackets(cell);
       if (!bracketed && !cell.empty() && !KnownUnit(cell)) return false;
       units.emplace_back(bracketed ? std::string(*bracketed) : cell);
-      any = any || !units.back().empty();
+      any = any || (!units.back().empty() && cell != "1");  // a number, and a unit beside others
     }
     if (!any || units.size() > columns_.size()) return false;
     for (std::size_t k = 0; k < units.size(); ++k)

@@ -1,5 +1,7 @@
 #include "core/record/time_base.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -52,8 +54,7 @@ TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
   for (std::size_t k = 1; k < t.size(); ++k) {
     const double first = t[1] - t[0], step = t[k] - t[k - 1];
     if (std::abs(step - first) > 2 * tolerance * std::min(first, period))
-      fail(k,
-           "is not uniform: step " + NumberText(step) + " s, expected " + NumberText(first) + " s");
+      fail(k, fmt::format("is not uniform: step {:.9g} s, expected {:.9g} s", step, first));
   }
   for (std::size_t k = 0; k < t.size(); ++k)
     if (std::abs(t[k] - t.front() - static_cast<double>(k) * period) > tolerance * period)

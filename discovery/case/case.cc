@@ -130,8 +130,8 @@ NuisancePriors ReadNuisances(const TomlTable& root,
       if (!known.contains(channel)) zero->Fail(channel, "is no channel of this rig");
       n.sensor_zero[channel] = PositiveNumber(*zero, channel);
     }
-  n.time_shift = PositiveNumber(*t, "time_shift");
-  n.input_gain = PositiveNumber(*t, "input_gain");
+  n.time_shift = Within(*t, "time_shift", 0, {"s", 0, 1, "sd of a record's clock"});
+  n.input_gain = Within(*t, "input_gain", 0, {"-", 0, 1, "sd of the gain of all commands"});
   t->RejectUnknownKeys();
   return n;
 }

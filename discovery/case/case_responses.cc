@@ -84,8 +84,8 @@ ResponsePoint PointNamed(const RigParameters& rig, const std::string& name, cons
 /// The port that was driven: the input, else what the case says, else that of the same axis or coil.
 ResponsePoint ExcitedOf(const RigParameters& rig, const RigResponse& r, const std::string& stated,
                         bool held, const TomlTable& t) {
-  if (r.input.port()) return r.input;
   std::string name = stated;
+  if (name.empty() && r.input.port()) return r.input;
   if (name.empty() && !r.input.axis.empty()) name = r.input.axis + ".force";
   if (name.empty() && held)
     name = CoilName(rig.bearings[r.input.bearing].name, r.input.index) + ".current";
@@ -95,6 +95,7 @@ ResponsePoint ExcitedOf(const RigParameters& rig, const RigResponse& r, const st
   const ResponsePoint p = PointNamed(rig, name, t, "excited");
   if (!p.port())
     t.Fail("excited", "= \"" + name + "\" is no port, allowed: .force, .reference, .sensor, .load");
+  if (r.input.port()) return r.input;  // `excited` stands for other responses of the record
   return p;
 }
 

@@ -48,10 +48,7 @@ void RequireAdoptable(const Case& c, const EffectDescription& d, const std::stri
 /// to fit to.
 Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   Comparison before = PrepareModels(full, thin, nominal);
-  if (full.targets().empty())
-    throw InputError(full.data().file +
-                     ": every channel of every record was left out (ambrig compare says why), "
-                     "allowed: one channel or more that moves");
+  RequireCountedRows(full);
   return before;
 }
 

@@ -19,7 +19,7 @@ ChannelError ErrorOf(const CaseModel& model, const std::vector<double>& residual
   e.ratio = TargetRatio(model, residual, t);
   e.noise = t.floor;
   e.rms_error = e.ratio * t.floor;
-  e.nrmse = t.full_scale > 0 ? e.rms_error / t.full_scale : 0;
+  e.nrmse = t.full_scale > 0 ? e.rms_error / t.full_scale : std::nan("");
   double product = 0, square = 0;
   for (std::size_t k = t.first; k + 1 < t.first + t.count; ++k) {
     product += residual[k] * residual[k + 1];
@@ -51,11 +51,34 @@ std::vector<std::string> Words(const Comparison& c) {
                    [](const Place& a, const Place& b) { return a.ratio > b.ratio; });
   std::vector<std::string> out;
   for (std::size_t k = 0; k < places.size() && k < 8; ++k) out.push_back(places[k].text);
-  const bool measured = std::any_of(c.records.begin(), c.records.end(),
-                                    [](const auto& r) { return !r.channels.empty(); });
   if (out.empty())
-    out.push_back(measured ? "model and measurement agree within the noise everywhere"
-                           : "nothing is compared: every channel of every record was left out");
+    out.push_back(std::isfinite(c.ratio)
+                      ? "model and measurement agree within the noise everywhere"
+                      : "nothing is compared: every channel of every record was left out");
+  return out;
+}
+
+/// A record in its channels; those of which no row counts are told in `words`.
+RecordComparison RecordBeside(const CaseModel& model, const std::vector<double>& residual,
+                              std::size_t r, std::vector<std::string>& words) {
+  const CaseRecord& record = model.data().records[r];
+  RecordComparison out;
+  out.data = record.data_file;
+  out.scenario = record.scenario.name;
+  out.validate = record.validate;
+  double sum = 0;
+  for (const Target& t : model.targets()) {
+    if (t.record != r) continue;
+    if (CountedRows(model, t) == 0) {
+      words.push_back(fmt::format("{} in {}: no row of it counts, it is not compared",
+                                  record.data.channels[t.channel].name, record.data_file));
+      continue;
+    }
+    out.channels.push_back(ErrorOf(model, residual, t));
+    sum += out.channels.back().ratio * out.channels.back().ratio;
+  }
+  const auto n = static_cast<double>(out.channels.size());
+  out.ratio = n > 0 ? std::sqrt(sum / n) : std::nan("");
   return out;
 }
 
@@ -77,36 +100,26 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   const std::vector<SampleSpan> alone = SpansOf(lonely);
   model.LeaveOut(alone);
   c.unpredictable.insert(c.unpredictable.end(), alone.begin(), alone.end());
+  if (c.data.empty()) RequireCountedRows(model);
   c.unpredictable.insert(c.unpredictable.end(), floor.unpredictable.begin(),
                          floor.unpredictable.end());
   c.predicted = floor.clean;
   c.effective_sample_size = floor.effective_sample_size;
   c.residual = Residual(model, c.predicted);
-  c.ratio = Ratio(model, c.residual, Which::kAll);
-  c.ratio_fit = Ratio(model, c.residual, Which::kFit);
-  c.ratio_validate = Ratio(model, c.residual, Which::kValidate);
+  c.ratio = KnownRatio(model, c.residual, Which::kAll);
+  c.ratio_fit = KnownRatio(model, c.residual, Which::kFit);
+  c.ratio_validate = KnownRatio(model, c.residual, Which::kValidate);
+  c.words = lost;
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
     const CaseRecord& record = model.data().records[r];
     if (progress)
       progress(
           0.3 + 0.7 * static_cast<double>(r) / static_cast<double>(model.data().records.size()),
           "blocks of " + record.data_file);
-    RecordComparison out;
-    out.data = record.data_file;
-    out.scenario = record.scenario.name;
-    out.validate = record.validate;
-    double sum = 0, n = 0;
-    for (const Target& t : model.targets()) {
-      if (t.record != r) continue;
-      out.channels.push_back(ErrorOf(model, c.residual, t));
-      sum += out.channels.back().ratio * out.channels.back().ratio;
-      n += 1;
-    }
-    out.ratio = n > 0 ? std::sqrt(sum / n) : 0;
+    RecordComparison out = RecordBeside(model, c.residual, r, c.words);
     if (blocks) out.blocks = BlockRatios(model, h, r);
     c.records.push_back(std::move(out));
   }
-  c.words = lost;
   for (const DataFault& f : c.data) c.words.push_back("data: " + FaultText(f));
   for (const std::string& line : LonelyRemarks(model.data(), lonely)) c.words.push_back(line);
   for (const std::string& line : NoiseRemarks(c.noise)) c.words.push_back(line);

@@ -27,8 +27,8 @@ Closure ClosureOf(const CaseModel& model, const std::vector<double>& before,
   Closure c;
   c.floors_before = Ratio(model, before, Which::kAll);
   c.floors_after = Ratio(model, after, Which::kAll);
-  c.test_before = Ratio(model, before, Which::kValidate);
-  c.test_after = Ratio(model, after, Which::kValidate);
+  c.test_before = KnownRatio(model, before, Which::kValidate);
+  c.test_after = KnownRatio(model, after, Which::kValidate);
   c.explained = ExplainedShare(c.floors_before, c.floors_after);
   return c;
 }

@@ -65,6 +65,7 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   full_.LeaveOut(SpansOf(lonely));
   model_.LeaveOut(SpansOf(lonely));
   for (const std::string& line : LonelyRemarks(full_.data(), lonely)) out_.warnings.push_back(line);
+  if (out_.data.empty()) RequireCountedRows(full_);
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);

@@ -1,8 +1,11 @@
 #include "discovery/model/residual.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/errors.h"
 #include "core/record/channels.h"
 
 namespace ambrig {
@@ -15,6 +18,14 @@ std::vector<double> WholeResidual(const CaseModel& model, const std::vector<doub
   ChangeOverFloor(model, predicted, model.measured(), r.data());
   LimitInBranches(model, r.data());
   return r;
+}
+
+/// Why the first channel that does not count is left out.
+std::string FirstReason(const Case& c) {
+  for (const CaseRecord& r : c.records)
+    for (const ChannelQuality& q : r.quality)
+      if (!q.use) return fmt::format("{}: {} is {}", r.data_file, q.channel, q.verdict);
+  return "no row of any counts";
 }
 
 }  // namespace
@@ -48,6 +59,16 @@ double CountedRows(const CaseModel& model, const Target& t) {
   return static_cast<double>(std::count(first, first + static_cast<std::ptrdiff_t>(t.count), 1));
 }
 
+void RequireCountedRows(const CaseModel& model) {
+  if (std::ranges::any_of(model.targets(),
+                          [&](const Target& t) { return CountedRows(model, t) > 0; }))
+    return;
+  throw InputError(
+      fmt::format("{}: every channel of every record was left out ({}), allowed: one channel or "
+                  "more that moves",
+                  model.data().file, FirstReason(model.data())));
+}
+
 double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t) {
   double sum = 0, n = 0;
   for (std::size_t k = t.first; k < t.first + t.count; ++k) {
@@ -67,6 +88,13 @@ double Ratio(const CaseModel& model, const std::vector<double>& residual, Which 
     }
   }
   return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+double KnownRatio(const CaseModel& model, const std::vector<double>& residual, Which which) {
+  const bool any = std::ranges::any_of(model.targets(), [&](const Target& t) {
+    return Counts(model, t, which) && CountedRows(model, t) > 0;
+  });
+  return any ? Ratio(model, residual, which) : std::nan("");
 }
 
 double UnseenRatio(const CaseModel& model, const std::vector<double>& residual) {

@@ -24,8 +24,13 @@ bool Counts(const CaseModel& model, const Target& t, Which which);
 /// The number of rows of a target that count.
 double CountedRows(const CaseModel& model, const Target& t);
 
-/// Root mean square of a residual over the chosen records: 1 means nothing is left but noise.
+/// @throws InputError where no row of any record counts: no answer can be given, least of all agreement.
+void RequireCountedRows(const CaseModel& model);
+
+/// Root mean square of a residual over the chosen records: 1 means nothing is left but noise. 0 where no row counts.
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);
+/// The same for a reader: not a number where no row counts.
+double KnownRatio(const CaseModel& model, const std::vector<double>& residual, Which which);
 /// Of the unseen records; where there are none, of the fitted ones.
 double UnseenRatio(const CaseModel& model, const std::vector<double>& residual);
 double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t);

@@ -19,6 +19,7 @@ constexpr int kLines = 15;          // of a multisine, per axis
 constexpr double kForce = 0.03;     // amplitude of a line, of the rotor's weight
 constexpr double kReference = 0.3;  // step of a reference, of the clearance
 constexpr double kLoad = 0.25;      // step of a load, of the weight
+constexpr double kOfRate = 0.45;    // of the controller's rate: lines of a multisine at most
 
 std::string Excited(const std::string& target, const std::string& port, const std::string& kind,
                     double start, double stop, double amplitude) {
@@ -53,6 +54,7 @@ class Writer {
 
   /// Lines of all axes interleaved between f0 and f1 [Hz], multiples of 1/2 Hz.
   std::string Multisine(double duration, double f0, double f1, double size) const {
+    f1 = std::min(f1, std::max(f0, kOfRate * rig_.controller.rate));
     std::string text;
     std::uint32_t drawn = 0;
     for (std::size_t a = 0; a < axes_.size(); ++a) {

@@ -59,18 +59,20 @@ struct ExaminationWriter {
     return axes;
   }
 
-  /// Lines of all axes interleaved, spread over 5 Hz to 1500 Hz, whole periods in 2 s.
+  /// Lines of all axes interleaved, spread over 5 Hz to 1500 Hz or what the controller's rate allows, whole periods in
+  /// 2 s.
   std::string Multisine(double duration) {
     const std::vector<std::string> axes = Axes();
     std::string text;
     const int lines = 17;
+    const double top = std::min(1500.0, 0.45 * rig.controller.rate);
     for (std::size_t a = 0; a < axes.size(); ++a) {
       std::string frequencies, phases;
       double last = 0;
       for (int k = 0; k < lines; ++k) {
         const double place =
             (k + static_cast<double>(a) / static_cast<double>(axes.size())) / lines;
-        const double f = std::max(last + 0.5, std::round(2 * 5 * std::pow(1500.0 / 5, place)) / 2);
+        const double f = std::max(last + 0.5, std::round(2 * 5 * std::pow(top / 5, place)) / 2);
         last = f;
         frequencies += fmt::format("{}{:.1f}", k ? ", " : "", f);
         phases += fmt::format("{}{:.4f}", k ? ", " : "", draw.Uniform(0, 2 * kPi));

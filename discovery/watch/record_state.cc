@@ -110,6 +110,11 @@ std::vector<LeftBand> FindLeftBands(const RecordState& now, const RecordState& r
   if (now.ratio_fitted > rise * reference.ratio_fitted)
     out.push_back({"error", "", "-", now.ratio_fitted, reference.ratio_fitted, 0, 0,
                    rise * reference.ratio_fitted});
+  for (const auto& [channel, ratio] : reference.floors) {
+    const double none = std::nan("");
+    if (!now.floors.contains(channel))
+      out.push_back({"channel", channel, "", none, none, none, none, none});
+  }
   for (const auto& [channel, noise] : now.noise) {
     const auto was = reference.noise.find(channel);
     if (was == reference.noise.end() || !(was->second > 0) || !(noise > 0)) continue;

@@ -35,8 +35,8 @@ RecordState StateOf(const Case& c, const RecordState* reference, const std::atom
 
 /// Something that left the band in which it stays with a probability of 99 % if nothing changed.
 struct LeftBand {
-  std::string kind;  // parameter | error | noise
-  std::string name;  // path of the parameter, channel of the noise; "" for the error
+  std::string kind;  // parameter | error | noise | channel: one that no longer says anything
+  std::string name;  // path of the parameter, channel; "" for the error
   std::string unit;
   double value = 0, was = 0;
   double sds = 0;                  // of a parameter: its change over the sd of the change

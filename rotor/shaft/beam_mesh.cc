@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/counted.h"
 #include "rotor/shaft/three_node_element.h"
 
 namespace ambrig {
@@ -40,12 +41,19 @@ void RequireOnShaft(const Span& span, double z, const std::string& what) {
 
 std::vector<double> Planes(const BeamDefinition& d, const Span& span) {
   std::vector<double> z;
+  const std::size_t most =
+      d.theory.element == ElementKind::kThreeNode ? kMostElements / 2 : kMostElements;
   // Given planes first: where an even split falls on one of them, the given value stays.
   const auto add = [&](double plane, const std::string& what) {
     RequireOnShaft(span, plane, what);
     for (double other : z)
       if (std::abs(other - plane) <= span.tolerance()) return;
     z.push_back(plane);
+    if (z.size() > most + 1)
+      throw InputError(fmt::format(
+          "the shaft has more than {} elements (elements_per_section = {}, {}), allowed: at most "
+          "{}, whose modes take minutes; 4 per section suffice for most shafts",
+          most, d.elements_per_section, Counted(d.sections.size(), "section"), most));
   };
   for (const Disk& disk : d.disks) add(disk.z, fmt::format("disk \"{}\"", disk.name));
   for (const SpringSupport& s : d.supports) {

@@ -71,6 +71,9 @@ TEST_F(Outputs, ChangedByHandAreNotOverwrittenUnlessForced) {
   EXPECT_THAT(ErrorText<InputError>([&] { RefuseOverwriting({file}, false); }),
               HasSubstr("rig.toml was changed since ambrig wrote it"));
   EXPECT_NO_THROW(RefuseOverwriting({file}, true));
+  WriteBytes(file, written.substr(0, written.rfind("# hash")) + "mass = 9.9\n");
+  EXPECT_THAT(ErrorText<InputError>([&] { RefuseOverwriting({file}, false); }),
+              HasSubstr("rig.toml was changed since ambrig wrote it"));
 }
 
 // The same file under another name is the same file.

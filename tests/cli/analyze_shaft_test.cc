@@ -108,7 +108,24 @@ TEST_F(AnalyzeShaft, TheMapKeepsWhatJoinsShafts) {
   for (const auto& row : map) EXPECT_FALSE(row.at("speeds").empty()) << row.at("stiffness");
 }
 
+// Ctrl-C in the middle of the eigenvalues of a large matrix, which look at nothing.
+TEST_F(AnalyzeShaft, ObeysCtrlC) {
+  Write("fine.toml", Replaced(ReadText(folder_ / "shaft.toml"), "elements_per_section = 4",
+                              "elements_per_section = 150"));
+  const Outcome o = Shell("cd " + folder_.string() + " && { env --default-signal=INT " +
+                          std::string(AMBRIG_BINARY) +
+                          " analyze fine.toml --speed 4000 --json a.json & sleep 2; kill -INT $!; "
+                          "begin=$(date +%s); wait $!; code=$?; end=$(date +%s); test $((end - "
+                          "begin)) -le 3 && exit $code; exit 99; }");
+  EXPECT_EQ(o.exit, 130) << o.text;
+  EXPECT_EQ(o.lines(), 1) << o.text;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.json"));
+}
+
 TEST_F(AnalyzeShaft, MistakesAreOneLine) {
+  Write("huge.toml", Replaced(ReadText(folder_ / "shaft.toml"), "elements_per_section = 4",
+                              "elements_per_section = 1000"));
+  ExpectRefusedLine("huge.toml --speed 4000", "more than 500 elements");
   ExpectRefusedLine("shaft.toml --probe wheel", "disk1");
   ExpectRefusedLine("shaft.toml --unbalance disk1", "PLANE:G_MM");
   ExpectRefusedLine("shaft.toml --unbalance pedestal:5", "housing");

@@ -72,6 +72,19 @@ TEST_F(Baseline, GainOfOnePerCent) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "base/difference.html"));  // nothing differs now
 }
 
+// A tolerance that fits no channel of any baseline is misspelt.
+TEST_F(Baseline, ToleranceOfNoChannelIsRefused) {
+  ASSERT_EQ(Check("--accept").exit, 0);
+  Write("base/tolerances.toml", "[channel.\"A.i*\"]\nrelative = 1e-6\n");
+  EXPECT_EQ(Check().exit, 0);
+  Write("base/tolerances.toml", "[channel.\"Q.*\"]\nrelative = 1e-6\n");
+  const Outcome o = Check();
+  EXPECT_EQ(o.exit, 2) << o.text;
+  EXPECT_EQ(o.lines(), 1) << o.text;
+  EXPECT_NE(o.text.find("tolerances.toml: channel.\"Q.*\" fits no channel"), std::string::npos)
+      << o.text;
+}
+
 TEST_F(Baseline, EventThatMovedByOnePeriod) {
   ASSERT_EQ(Check("--accept").exit, 0);
   ASSERT_EQ(Simulate("a").exit, 0);

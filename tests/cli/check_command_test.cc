@@ -83,6 +83,25 @@ TEST_F(CheckCommand, AFolderMeansItsScenariosWithExpectations) {
   EXPECT_THAT(o.text, HasSubstr("1 scenario, 1 met"));
 }
 
+// Nor does a file of a folder that is not even TOML.
+TEST_F(CheckCommand, AFileOfAFolderThatCannotBeReadIsAnError) {
+  Write("broken.toml", "name = \n");
+  const Outcome o = Ambrig("check . --junit out.xml");
+  EXPECT_EQ(o.exit, 1) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("broken.toml:1"));
+  EXPECT_THAT(o.text, HasSubstr("2 scenarios, 1 met, 1 not met"));
+  pugi::xml_document xml;
+  ASSERT_TRUE(xml.load_file((folder_ / "out.xml").c_str()));
+  EXPECT_STREQ(xml.child("testsuite").attribute("errors").value(), "1");
+}
+
+TEST_F(CheckCommand, AnEmptyTableOfExpectationsIsToldAsSuch) {
+  Write("empty.toml", ScenarioText("[expect]\n"));
+  const Outcome o = Ambrig("check empty.toml");
+  EXPECT_EQ(o.exit, 1) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("nothing stands in its [expect]"));
+}
+
 TEST_F(CheckCommand, AcceptingNeedsAFolderOfBaselines) {
   const Outcome o = Ambrig("check calm.toml --accept");
   EXPECT_EQ(o.exit, 2);

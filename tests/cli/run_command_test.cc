@@ -66,6 +66,19 @@ TEST_F(RunCommand, AnUncommissionedRigIsToldHowToTeachIt) {
   EXPECT_THAT(o.text, HasSubstr("model doubtful: gross faults only"));
   EXPECT_THAT(o.text, HasSubstr("has not learnt this rig"));
   EXPECT_THAT(ReadText(folder_ / "out/a.html"), HasSubstr("ambrig commission rig.toml"));
+  EXPECT_THAT(ReadText(folder_ / "out/a.json"), HasSubstr("has not learnt this rig"));
+}
+
+// Rows that a run needs and the file of its command does not have.
+TEST_F(RunCommand, SamplesThatEndBeforeTheRunAreNoted) {
+  Write("f.csv", "t,f\n0.002,1\n0.003,1\n0.004,1\n");
+  Write("short.toml", ScenarioText("[[excitation]]\ntarget = \"A.x\"\nkind = \"samples\"\nfile = "
+                                   "\"f.csv\"\nchannel = \"f\"\n"));
+  const Outcome o = Ambrig("run short.toml --no-report");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  const std::string json = ReadText(folder_ / "out/short.json");
+  EXPECT_THAT(json, HasSubstr("the samples of A.x begin at 0.002 s: nothing is commanded before"));
+  EXPECT_THAT(json, HasSubstr("end at 0.005 s: their last value holds until 0.01 s"));
 }
 
 // No auxiliary bearing, no clearance: a dash, not 0.

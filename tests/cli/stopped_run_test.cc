@@ -64,6 +64,21 @@ TEST_F(StoppedRun, FullDevice) {
       << o.text;
 }
 
+// What is printed is a result too, of every command.
+TEST_F(StoppedRun, FullDiskBehindStandardOutput) {
+  Write("rig.toml", ReferenceRigText());
+  Write("s.toml", ScenarioText("[expect]\ntouchdown = false\n"));
+  Write("a.csv", "t [s],A.x [m]\n0,1\n0.1,2\n0.2,3\n");
+  for (const char* call : {"effects", "parameters --markdown", "channels a.csv", "diff a.csv a.csv",
+                           "check s.toml", "run s.toml --no-report", "tour --help"}) {
+    const Outcome o =
+        Shell("(cd " + folder_.string() + " && " + AMBRIG_BINARY + " " + call + " > /dev/full)");
+    EXPECT_EQ(o.exit, 2) << call << o.text;
+    EXPECT_EQ(o.lines(), 1) << call << o.text;
+    EXPECT_NE(o.text.find("cannot write standard output"), std::string::npos) << call << o.text;
+  }
+}
+
 using Stop = std::pair<const char*, const char*>;  // command, signal
 class Interrupted : public StoppedRun, public ::testing::WithParamInterface<Stop> {};
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/base/journal.h"
@@ -35,6 +36,25 @@ class Watch : public CliFolder {
     EXPECT_EQ(Ambrig("run now.toml --no-report --quiet --out made").exit, 0);
     fs::create_directories((folder_ / data).parent_path());
     fs::rename(folder_ / "made/now.h5", folder_ / data);
+  }
+  /// The same as CSV, with the cells of the current's column as `cell` makes them.
+  void MakeCsv(const std::string& data,
+               const std::function<std::string(std::size_t, const std::string&)>& cell) const {
+    EXPECT_EQ(Ambrig("run steps-05.toml --no-report --quiet --csv --out made").exit, 0);
+    std::istringstream rows(ReadText(folder_ / "made/steps-05.csv"));
+    std::string text, line;
+    std::size_t current = 0;
+    for (std::size_t row = 0; std::getline(rows, line); ++row) {
+      std::istringstream cells(line);
+      std::string one;
+      for (std::size_t column = 0; std::getline(cells, one, ','); ++column) {
+        if (row == 0 && one.starts_with("M.i1")) current = column;
+        text += (column == 0 ? "" : ",") + (row > 0 && column == current ? cell(row, one) : one);
+      }
+      text += '\n';
+    }
+    EXPECT_GT(current, 0u);
+    Write(data, text);
   }
   nlohmann::json Look(int exit, const std::string& more = "") {
     const Outcome o =
@@ -88,6 +108,26 @@ TEST_F(Watch, WrongDataAndStrangeFilesAreToldNotFitted) {
   ASSERT_EQ(w["records"].size(), 2u) << w["records"];
   for (const auto& r : w["records"])
     EXPECT_EQ(r["state"], r["data"] == "broken.csv" ? "refused" : "ok") << r;
+}
+
+// One sample of 1e308 A makes the error infinite, which JSON has no word for: the alarm is told all the same, and once.
+TEST_F(Watch, AnInfiniteErrorIsAnAlarm) {
+  MakeCsv("logger/steps-05-spike.csv",
+          [](std::size_t row, const std::string& cell) { return row == 700 ? "1e308" : cell; });
+  const nlohmann::json w = Look(1, "--no-explain");
+  ASSERT_EQ(w["records"].size(), 1u);
+  EXPECT_EQ(w["records"][0]["state"], "data") << w["records"][0];
+  EXPECT_THAT(text_, HasSubstr("the data are wrong"));
+  EXPECT_EQ(w["alarm"], true);
+}
+
+// A sensor whose cable is off agrees with everything: it is told, not passed over.
+TEST_F(Watch, ADeadChannelIsAnAlarm) {
+  MakeCsv("logger/steps-05-dead.csv", [](std::size_t, const std::string&) { return ""; });
+  const nlohmann::json w = Look(1, "--no-explain");
+  ASSERT_EQ(w["records"].size(), 1u);
+  EXPECT_NE(w["records"][0]["state"], "ok") << w["records"][0];
+  EXPECT_THAT(text_, HasSubstr("M.i1"));
 }
 
 // What a crash left in the journal counts as it is: a damaged entry is examined again.

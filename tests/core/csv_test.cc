@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/record/text_table.h"
 #include "tests/core/temporary_folder.h"
 
 namespace ambrig {
@@ -102,9 +103,8 @@ TEST_F(Csv, ErrorsNameLineAndColumn) {
 }
 
 TEST_F(Csv, TimeThatIsNotUniformIsReportedWithItsRow) {
-  EXPECT_EQ(
-      Error("t,z\n0,1\n0.1,2\n0.3,3\n0.4,4\n"),
-      ": column t: row 4: time 0.3 s is not uniform: step 0.19999999999999998 s, expected 0.1 s");
+  EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.3,3\n0.4,4\n"),
+            ": column t: row 4: time 0.3 s is not uniform: step 0.2 s, expected 0.1 s");
   EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.1,3\n"), ": column t: row 4: time 0.1 s does not increase");
   EXPECT_EQ(Error("t,z\n0,1\n,2\n0.2,3\n"), ": column t: row 3: time nan s is not a number");
   EXPECT_EQ(Error("t,z\n0,1\n"), ": column t: a time column needs at least two rows");
@@ -134,6 +134,17 @@ TEST_F(Csv, RefusesNamesThatWouldReadDifferently) {
     WriteCsv(Record{1.0, 0.0, {{"a,b", "m", {1, 2}}}}, path_);
   });
   EXPECT_EQ(text, "cannot write " + path_ + ": channel name 'a,b', unit 'm'");
+}
+
+// "1" is a number, and a unit only in a line where others are units.
+TEST(TextTable, AFirstRowOfOnesIsNoLineOfUnits) {
+  const TextTable row = ReadTextTable("a.csv", "x,F,G\n,1,1\n1,2,3\n");
+  ASSERT_EQ(row.columns.size(), 3U);
+  EXPECT_EQ(row.columns[1].samples, (std::vector<double>{1, 2}));
+  EXPECT_EQ(row.columns[1].unit, "");
+  const TextTable units = ReadTextTable("a.csv", "t,F\ns,1\n0,2\n");
+  EXPECT_EQ(units.columns[0].unit, "s");
+  EXPECT_EQ(units.columns[1].samples, (std::vector<double>{2}));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 namespace ambrig {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -257,6 +258,29 @@ TEST(RigFile, AnEffectStandsOnceOnItsTarget) {
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("\"side-pull\" on A stands twice (first rig.toml:"));
   }
+}
+
+// What is simulated must be as possible as what is drawn, each number and all together.
+TEST(RigFile, FittedValuesAreCheckedAsTheOthers) {
+  const std::string resistance = "resistance = { value = 0.5, sd = 0.01";
+  for (const char* fitted : {"-0.5", "0.0", "5e9"})
+    EXPECT_THAT(Message(resistance, resistance + ", fitted = " + fitted),
+                AllOf(HasSubstr("bearings.A.resistance.fitted = "), HasSubstr("allowed")))
+        << fitted;
+  const std::string mass = "mass = { value = 4.2, sd = 0.01";
+  EXPECT_THAT(Message(mass, mass + ", fitted = -3.0"), HasSubstr("rotor.mass.fitted = -3 kg"));
+  EXPECT_THAT(Message("bus_voltage = 30.0", "bus_voltage = { value = 30.0, fitted = -30.0 }"),
+              HasSubstr("amplifier.bus_voltage.fitted = -30 V"));
+  const std::string gap = "gap = { value = 4.0e-4, sd = 4.0e-6";
+  EXPECT_THAT(Message(gap, gap + ", fitted = 1.5e-4"),
+              AllOf(HasSubstr("bearings.A.gap = 0.00015 m with the fitted values"),
+                    HasSubstr("auxiliary clearance")));
+  const std::string polar = "inertia_polar = { value = 0.0042, sd = 0.00005";
+  EXPECT_THAT(Message(polar, polar + ", fitted = 0.5"),
+              AllOf(HasSubstr("rotor.inertia_polar = 0.5 kg m2 with the fitted values"),
+                    HasSubstr("twice inertia_transverse")));
+  EXPECT_EQ(Message(gap, gap + ", fitted = 3.9e-4"), "no mistake");
+  EXPECT_THAT(Message(mass, mass + ", fit = 4.0"), HasSubstr("allowed: value, sd, fitted"));
 }
 
 }  // namespace

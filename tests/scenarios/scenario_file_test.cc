@@ -6,6 +6,7 @@
 #include "core/base/errors.h"
 #include "scenarios/scenario.h"
 #include "tests/actuators/magnetics/reference_lanes.h"
+#include "tests/core/temporary_folder.h"
 
 namespace ambrig {
 namespace {
@@ -226,6 +227,39 @@ TEST(ScenarioFile, ExcitationsNeedATargetOfTheirPort) {
                 .excitations[0]
                 .stop,
             0.5);
+}
+
+// Half the controller's rate of 12.5 kHz for an axis, half the switching frequency of 25 kHz for a coil: what is faster
+// would come out as another, slower signal, and a multiple of the rate as none at all.
+TEST(ScenarioFile, CommandsAboveHalfTheirRateAreRefused) {
+  const auto on = [](const char* target, const char* signal) {
+    return ScenarioMessage(std::string("[[excitation]]\namplitude = 1.0\n") + target + signal);
+  };
+  const char *axis = "target = \"A.x\"\nport = \"force\"\n",
+             *coil = "target = \"A.coil1\"\nport = \"current\"\n";
+  EXPECT_THAT(on(axis, "kind = \"sine\"\nfrequency = 12500.0\n"),
+              HasSubstr("frequency = 12500 Hz, allowed: at most 6250 Hz, half the controller's"));
+  EXPECT_THAT(on(axis, "kind = \"multisine\"\nfrequencies = [10.0, 6251.0]\n"),
+              HasSubstr("frequencies = 6251 Hz, allowed: at most 6250 Hz"));
+  EXPECT_THAT(on(axis, "kind = \"chirp\"\nf0 = 10.0\nf1 = 7000.0\n"),
+              HasSubstr("f1 = 7000 Hz, allowed: at most 6250 Hz"));
+  EXPECT_EQ(on(axis, "kind = \"chirp\"\nf0 = 10.0\nf1 = 6250.0\n"), "no mistake");
+  EXPECT_EQ(on(coil, "kind = \"sine\"\nfrequency = 12000.0\n"), "no mistake");
+  EXPECT_THAT(on(coil, "kind = \"sine\"\nfrequency = 13000.0\n"),
+              HasSubstr("allowed: at most 12500 Hz, half the switching frequency (port current)"));
+}
+
+// A file of other times commands nothing at all, or one value throughout.
+TEST(ScenarioFile, SamplesOfOtherTimesAreRefused) {
+  const testing::TemporaryFolder folder;
+  testing::WriteBytes(folder.File("late.csv"), "t,f\n5,1\n5.01,2\n5.02,3\n");
+  const std::string samples =
+      "[[excitation]]\ntarget = \"A.x\"\nkind = \"samples\"\nchannel = "
+      "\"f\"\nfile = \"" +
+      folder.File("late.csv") + "\"\n";
+  EXPECT_THAT(
+      ScenarioMessage(samples),
+      HasSubstr("file: holds 5 s to 5.03 s, allowed: times of the excitation, 0 s to 0.5 s"));
 }
 
 }  // namespace

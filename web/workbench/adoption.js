@@ -45,7 +45,7 @@ function result(command, file, go) {
   if (!done || done.state !== 'done' || !found) return nothing;
   const [rig, next] = done.new_files;
   if (!state.folder.files.some((/** @type {any} */ f) => f.name === next)) return nothing;  // the step was taken back
-  const after = command === 'adopt' ? found.result.ratio_validate : found.result.ratio_after;
+  const after = command === 'adopt' ? found.result.ratio_validate ?? found.result.ratio : found.result.ratio_after;
   return html`<section class="adopt" aria-label=${command === 'adopt' ? 'adopted' : 'refined'}><h2>${command === 'adopt' ? 'Adopted' : 'Refined'}</h2>
     <p>Written ${rig} and ${next}. <button class="main" @click=${() => go({screen: 'case', file: next, record: '', channels: [], from: null, to: null, marks: {}})}>Open ${next}</button></p>
     ${(found.result.ladder ?? []).length > 0 ? ladder(found.result.ladder, `The error fell to ${ratio(after)} times the noise`) : html`<p>Error over noise ${ratio(found.result.ratio_before)} \u2192 ${ratio(after)}</p>`}</section>`;

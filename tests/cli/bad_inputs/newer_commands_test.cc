@@ -55,6 +55,7 @@ const BadUse kUses[] = {
     {"validate off_node.validation.toml", "off_node.validation.toml:"},
     // static tables
     {"compare static_gap.toml", "row 2: A at [0.04, 0] m, allowed: inside the gap of 0.0004 m"},
+    {"compare late_clock.toml", "late_clock.toml:6: nuisance.time_shift = 1000000000 s, allowed 0"},
     {"compare static_sd.toml", "static_sd.toml:6: record[1].sd.A.fx = 0 N, allowed 1e-15 to"},
 };
 
@@ -77,6 +78,7 @@ class BadUses : public WorkFolder, public ::testing::WithParamInterface<BadUse> 
     Write("static_gap.toml", table +
                                  "[record.channels]\n\"A.x\" = { column = \"x\", gain = 1000.0 }\n"
                                  "\"A.fx\" = \"F\"\n");
+    Write("late_clock.toml", table + "[nuisance]\ntime_shift = 1e9\n");
     Write("static_sd.toml", table +
                                 "[record.sd]\n\"A.fx\" = 0.0\n[record.channels]\n\"A.x\" = \"x\"\n"
                                 "\"A.fx\" = \"F\"\n");
@@ -126,13 +128,22 @@ TEST_F(Outputs, FilesOfAHiddenCaseAreMarked) {
     EXPECT_TRUE(ReadText(folder_ / file).starts_with("# made by ambrig hide\n")) << file;
 }
 
-// Readings that never move are left out; where nothing else was measured no agreement is claimed, and no fit begun.
+// Readings that never move are left out; where nothing else was measured there is no answer, least of all agreement.
 TEST_F(Outputs, NothingMeasuredIsNoAgreement) {
-  const Outcome o = Ambrig("compare case.toml --no-blocks");
-  EXPECT_THAT(o.text, ::testing::HasSubstr("nothing is compared: every channel of every record"));
+  for (const char* call : {"compare case.toml --no-blocks", "explain case.toml --candidates 1",
+                           "adopt case.toml sensor-gain -o x.toml"})
+    ExpectRefused(Ambrig(call), "case.toml: every channel of every record was left out");
+}
+
+// A table of which no reading is a number is not in agreement either.
+TEST_F(Outputs, ATableWithoutANumberIsRefused) {
+  Write("table.csv", "x,F\n0,nan\n1e-5,nan\n2e-5,nan\n3e-5,nan\n");
+  Write("t.toml",
+        "rig = \"rig.toml\"\n[[record]]\nkind = \"static\"\ndata = \"table.csv\"\n"
+        "[record.channels]\n\"A.x\" = \"x\"\n\"A.fx\" = \"F\"\n");
+  const Outcome o = Ambrig("compare t.toml");
+  EXPECT_EQ(o.exit, 2) << o.text;
   EXPECT_THAT(o.text, ::testing::Not(::testing::HasSubstr("agree within the noise")));
-  ExpectRefused(Ambrig("adopt case.toml sensor-gain -o x.toml"),
-                "case.toml: every channel of every record was left out");
 }
 
 // Rows without a number are told, of a table as of a record over time.
@@ -141,8 +152,10 @@ TEST_F(Outputs, RowsOfATableWithoutANumberAreTold) {
   Write("t.toml",
         "rig = \"rig.toml\"\n[[record]]\nkind = \"static\"\ndata = \"table.csv\"\n"
         "[record.channels]\n\"A.x\" = \"x\"\n\"A.fx\" = \"F\"\n");
-  const Outcome o = Ambrig("compare t.toml");
+  const Outcome o = Ambrig("compare t.toml --json t.json");
   EXPECT_EQ(o.exit, 0) << o.text;
+  // No record is unseen: its error is unknown, not zero.
+  EXPECT_THAT(ReadText(folder_ / "t.json"), ::testing::HasSubstr("\"ratio_validate\": null"));
   EXPECT_THAT(o.text, ::testing::HasSubstr("table.csv: A.fx: 2 of 4 rows left out (no number)"));
 }
 

@@ -91,6 +91,9 @@ TEST_F(CaseBench, MistakesOfResponses) {
               HasSubstr("trace \"Q\" of A.x/A.x.force is not in data.csv, allowed: P, S"));
   EXPECT_THAT(Error(frf + "\"A.x.force/A.x\" = \"P\"\n"), HasSubstr("a port is no output"));
   EXPECT_THAT(Error(frf + "\"A.i1/A.s1\" = \"S\"\n"), HasSubstr("excited: is missing"));
+  EXPECT_THAT(Error("kind = \"frf\"\nexcited = \"foo\"\n[record.responses]\n"
+                    "\"A.x.command/A.x.force\" = \"S\"\n"),
+              HasSubstr("excited: \"foo\" is no point of this rig"));
   EXPECT_THAT(Error(frf + "\"A.i1/A.coil1.current\" = \"S\"\n"),
               HasSubstr("a coil's needs a scenario with start \"clamped\""));
   EXPECT_THAT(Error(frf + "\"A.x.command/A.x.force\" = \"P\"\n"), HasSubstr("unit um"));

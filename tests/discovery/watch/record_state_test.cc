@@ -62,5 +62,19 @@ TEST(RecordBands, NoiseLeavesThemByHalfOfItself) {
   EXPECT_TRUE(FindLeftBands(now, was).empty());
 }
 
+// A channel that says nothing any more cannot differ from the model: that it is gone is told by itself.
+TEST(RecordBands, AChannelThatIsGoneLeavesThem) {
+  RecordState was = State(4e-4, 1e-6, 1);
+  was.floors = {{"A.x", 1}, {"A.y", 1}};
+  RecordState now = was;
+  EXPECT_TRUE(FindLeftBands(now, was).empty());
+  now.floors.erase("A.y");
+  const auto left = FindLeftBands(now, was);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_EQ(left[0].kind, "channel");
+  EXPECT_EQ(left[0].name, "A.y");
+  EXPECT_TRUE(std::isnan(left[0].value));
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -171,6 +171,14 @@ std::string Message(const BeamDefinition& d) {
   return "";
 }
 
+// Dense matrices of more would take hours and more memory than machines have.
+TEST(BeamErrors, TooManyElementsAreRefused) {
+  EXPECT_EQ(Message(UniformShaft(0.1, 0.02, static_cast<int>(kMostElements))), "");
+  EXPECT_NE(Message(UniformShaft(0.1, 0.02, static_cast<int>(kMostElements) + 1))
+                .find("more than 500 elements"),
+            std::string::npos);
+}
+
 TEST(BeamErrors, SayWhatIsWrong) {
   BeamDefinition gap = UniformShaft(0.1, 0.02, 1);
   gap.sections.push_back(Uniform(0.1, 0.02));
