@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ambrig {
@@ -20,6 +21,8 @@ struct Record {
   std::vector<Channel> channels = {};
   std::map<std::string, std::string> attributes = {};  // of the whole record, e.g. its parameters
   std::vector<std::string> notes = {};  // what a reader left out, one line each; never written
+  // Times [s] of the last row before and the first behind each block of rows that a reader found missing.
+  std::vector<std::pair<double, double>> gaps = {};
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
   double TimeAt(std::size_t row) const { return start + static_cast<double>(row) / rate; }

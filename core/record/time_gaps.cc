@@ -11,7 +11,7 @@ namespace ambrig {
 namespace {
 
 constexpr std::size_t kLeastRows = 20;
-constexpr double kMostGaps = 0.02;  // of the rows
+constexpr double kMostGaps = 0.02;  // of the rows; one in any case
 constexpr double kLargest = 10;     // rows lost over rows there
 constexpr double kWhole = 0.15;     // distance of a jump from a whole number of steps
 
@@ -41,7 +41,7 @@ void FillGaps(Record& record, std::vector<double>& t) {
   double gaps = 0, lost = 0;
   for (const std::size_t s : steps)
     if (s > 1) gaps += 1, lost += static_cast<double>(s - 1);
-  if (gaps == 0 || gaps > kMostGaps * static_cast<double>(rows) ||
+  if (gaps == 0 || gaps > std::max(1.0, kMostGaps * static_cast<double>(rows)) ||
       lost > kLargest * static_cast<double>(rows))
     return;
   const auto filled = [&](const std::vector<double>& old, const auto& between) {
@@ -57,9 +57,7 @@ void FillGaps(Record& record, std::vector<double>& t) {
       return std::numeric_limits<double>::quiet_NaN();
     });
   for (std::size_t k = 0; k < steps.size(); ++k)
-    if (steps[k] > 1)
-      record.notes.push_back(fmt::format("{} rows between t = {:.6g} s and {:.6g} s are missing",
-                                         steps[k] - 1, t[k], t[k + 1]));
+    if (steps[k] > 1) record.gaps.emplace_back(t[k], t[k + 1]);
   t = filled(t, [&](std::size_t k, std::size_t n) {
     return t[k] + (t[k + 1] - t[k]) * static_cast<double>(n) / static_cast<double>(steps[k]);
   });

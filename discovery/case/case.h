@@ -40,7 +40,7 @@ struct CaseRecord {
   double time_offset = 0;  // [s] scenario time of the logger's zero
   // [s] of rows after the scenario's end that were cut off: more than a logger stopped late has, without an offset
   double behind = 0;
-  // [s] last row before and first one behind each run of rows without any number that the case does not leave out
+  // [s] last row before and first one behind each block of rows that the logger lost and the case does not leave out
   std::vector<std::pair<double, double>> gaps = {};
 };
 

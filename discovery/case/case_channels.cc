@@ -85,6 +85,7 @@ Record MapChannels(const Record& raw, const std::map<std::string, ChannelMapping
   Record out;
   out.rate = raw.rate;
   out.start = raw.start;
+  out.gaps = raw.gaps;
   for (const auto& [channel, unit] : known) {
     const auto it = mapping.find(channel);
     if (it != mapping.end() && !it->second.use) continue;

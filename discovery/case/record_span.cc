@@ -36,24 +36,6 @@ double CutBehind(Record& data, double duration) {
   return static_cast<double>(behind) / data.rate;
 }
 
-bool IsEmptyRow(const Record& data, std::size_t row) {
-  return std::ranges::none_of(data.channels,
-                              [&](const Channel& c) { return std::isfinite(c.samples[row]); });
-}
-
-/// Times of the last row before and the first one behind every run of empty rows.
-std::vector<std::pair<double, double>> EmptySpans(const Record& data) {
-  std::vector<std::pair<double, double>> out;
-  for (std::size_t k = 1; k + 1 < data.rows(); ++k) {
-    if (!IsEmptyRow(data, k) || IsEmptyRow(data, k - 1)) continue;
-    std::size_t end = k;
-    while (end < data.rows() && IsEmptyRow(data, end)) ++end;
-    if (end < data.rows()) out.emplace_back(data.TimeAt(k - 1), data.TimeAt(end));
-    k = end;
-  }
-  return out;
-}
-
 }  // namespace
 
 void CutToScenario(CaseRecord& r, std::vector<std::string>& notes) {
@@ -69,9 +51,16 @@ void CutToScenario(CaseRecord& r, std::vector<std::string>& notes) {
                                 r.data_file, behind));
 }
 
+std::size_t EmptyRows(const CaseRecord& r) {
+  double rows = 0;
+  for (const auto& [from, to] : r.gaps) rows += std::round((to - from) * r.data.rate) - 1;
+  return static_cast<std::size_t>(rows);
+}
+
 void LeaveOutSpans(CaseRecord& r, const std::vector<std::vector<double>>& spans,
                    const TomlTable& t) {
-  r.gaps = EmptySpans(r.data);
+  r.gaps = r.data.gaps;
+  for (auto& [from, to] : r.gaps) from += r.time_offset, to += r.time_offset;
   for (const std::vector<double>& span : spans) {
     if (span.size() != 2 || !(span[0] <= span[1]))
       t.Fail("leave_out", "allowed: [[from, to], ...] in s of the scenario");

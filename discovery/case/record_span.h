@@ -13,7 +13,10 @@ namespace ambrig {
 /// may have made it.
 void CutToScenario(CaseRecord& r, std::vector<std::string>& notes);
 
-/// Rows of these times [s] get no numbers (nan); `r.gaps` become the spans of empty rows that are not among them.
+/// Rows of `r.gaps`.
+std::size_t EmptyRows(const CaseRecord& r);
+
+/// Rows of these times [s] get no numbers (nan); `r.gaps` become the blocks of lost rows that are not among them.
 /// @throws InputError for a span without two ends.
 void LeaveOutSpans(CaseRecord& r, const std::vector<std::vector<double>>& spans,
                    const TomlTable& t);

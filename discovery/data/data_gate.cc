@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "discovery/data/gate_columns.h"
+#include "discovery/data/gate_points.h"
 #include "discovery/model/in_parallel.h"
 
 namespace ambrig {
@@ -51,7 +53,11 @@ bool Predicted(const CaseModel& model, std::size_t record) {
 std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<double>& predicted,
                                      const Hypothesis& h, std::size_t r) {
   std::vector<DataFault> out;
-  if (!OverTime(model.data().records[r])) return out;
+  if (!OverTime(model.data().records[r])) {
+    (model.data().records[r].kind == RecordKind::kFrf ? CheckResponses : CheckTable)(
+        model, predicted, h, r, out);
+    return out;
+  }
   std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
   CheckLength(model, r, out);
   CheckGaps(model, r, out);
@@ -59,20 +65,36 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
   CheckSpikes(model, r, columns, out);
   CheckHeld(model, r, columns, out);
   CheckSpeed(model, r, out);
-  if (!Predicted(model, r)) return out;
+  CheckDrives(model, r, out);
+  if (!Predicted(model, r)) {
+    CheckHeldFromStart(model, r, columns, out);
+    return out;
+  }
   CheckUnits(model, r, columns, out);
   CheckSwaps(model, r, columns, out);
   CheckLevelFactors(model, r, columns, out);
   CheckTimes(model, r, columns, out);
+  CheckHeldFromStart(model, r, columns, out);
   CheckSpeedTime(model, r, columns, out);
   CheckScenario(model, h, r, columns, out);
+  CheckAngle(model, r, out);
+  CheckCommands(model, h, r, columns, out);
   return out;
 }
 
 std::string Quantity(const DataFault& f) {
+  if (f.with == kConjugate) return "has phases of the wrong sign: it is the conjugate";
+  if (f.with == kPhase)
+    return f.factor < 1 ? "has phases in radians, read as degrees"
+                        : "has phases in degrees, read as radians";
+  if (f.with == kDecibels)
+    return f.factor < 1 ? "has 10 log of its magnitudes, read as 20 log"
+                        : "has 20 log of its magnitudes, read as 10 log";
   if (f.fault == "unit") return fmt::format("is {:.4g} times what it should be", f.factor);
   if (f.fault == "sign") return "has the wrong sign";
-  if (f.fault == "swap") return "is exchanged with " + f.with;
+  if (f.fault == "swap")
+    return (f.mend.starts_with("channels = ") ? "is exchanged with " : "holds what belongs to ") +
+           f.with;
   if (f.fault == "lag")
     return fmt::format("comes {:.4g} ms {}", 1e3 * std::abs(f.seconds),
                        f.seconds > 0 ? "late" : "early");

@@ -19,7 +19,7 @@ struct DataFault {
   std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario
   double factor = 1;   // measured over what it should be [-]: unit, sign
   double seconds = 0;  // late (positive), lost, frozen or clipped time [s]
-  std::string with;    // the other column or the scenario that fits
+  std::string with;    // the other column, the scenario that fits; "phase", "conjugate", "decibels"
   std::string mend;    // a line to paste into the record's table of the case file
   double probability = 0;
 };
@@ -63,16 +63,16 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
 /// would move the other columns of its bearing, the bus those of all.
 void CheckLevelFactors(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                        std::vector<DataFault>& out);
-/// Two columns of one kind exchanged.
+/// Columns exchanged: two, or more of one kind round a circle.
 void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
-/// Clocks that are late from some row on: of all columns, of one instrument, of one or two columns.
+/// Clocks that are late from some row on: of all columns, of those of one instrument or converter, of one or two columns.
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
 /// A clock that only the measured speed shows: in a run-up that moves nothing else, or of the speed's column alone.
 void CheckSpeedTime(const CaseModel& model, std::size_t record,
                     const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
-/// Unit or sign of the measured speed, beside the profile of the scenario.
+/// Unit or sign of the measured speed beside the profile of the scenario, or a stretch in which it stands still.
 void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 /// Line of a case file that gives a column its right unit, or a gain where no unit does; `factor`:
 /// measured over what it should be.

@@ -1,11 +1,14 @@
 #include "discovery/data/gate_columns.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/record/channels.h"
 #include "discovery/data/noise_estimate.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -18,6 +21,19 @@ double MostZero(const CaseModel& model, const std::string& channel) {
   const auto own = declared.find(channel);
   const double usual = UsualZero(model.data().rig, channel);
   return kZeroSds * (own == declared.end() ? usual : std::max(own->second, usual));
+}
+
+double LimitOf(const RigParameters& rig, const std::string& channel) {
+  const auto id = ParseChannel(channel);
+  if (!id) return kInfinity;
+  if (id->kind == ChannelKind::kCoilCurrent || id->kind == ChannelKind::kSetPoint)
+    return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
+  if (id->kind == ChannelKind::kDuty) return 1;
+  if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& axis : b.Axes())
+      if (axis == channel) return 2 * GapOf(b);
+  return kInfinity;
 }
 
 double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero) {
@@ -79,6 +95,23 @@ DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const st
   f.fault = fault;
   f.probability = std::clamp(1 - left * left, 0.5, 0.999);
   return f;
+}
+
+std::string LeaveOutLine(const CaseRecord& r, std::size_t first, std::size_t count) {
+  return fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.TimeAt(first) - 0.5 / r.data.rate,
+                     r.data.TimeAt(first + count) + 0.5 / r.data.rate);
+}
+
+void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
+              std::vector<DataFault>& out) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  f.fault = s.value == 0 ? "lost" : "freeze";
+  f.seconds = static_cast<double>(s.count) / r.data.rate;
+  f.mend = LeaveOutLine(r, s.first, s.count - 1);
+  f.probability = 0.99;
+  out.push_back(f);
 }
 
 void TellScenario(DataFault fault, std::vector<DataFault>& out) {

@@ -4,12 +4,16 @@
 #include <vector>
 
 #include "discovery/data/data_gate.h"
+#include "discovery/data/held_values.h"
 
 namespace ambrig {
 
 /// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by no
 /// more are not told apart.
 double MostZero(const CaseModel& model, const std::string& channel);
+
+/// Largest value that the channel can show [SI]; infinity where nothing limits it.
+double LimitOf(const RigParameters& rig, const std::string& channel);
 
 /// rms of measured minus predicted [floors], less a constant of at most `zero` [SI].
 double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero);
@@ -35,6 +39,28 @@ bool BorneOut(const std::vector<GateColumn>& columns, const GateColumn& c);
 /// A fault of a column ("": of all) that is as probable as undoing it leaves little: `left`, a share of the error.
 DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
                        double left);
+
+/// Line of a case file that leaves out `count` samples from `first` on.
+std::string LeaveOutLine(const CaseRecord& r, std::size_t first, std::size_t count);
+
+/// Tells that a column stands still for a stretch ("freeze", or "lost" where it holds 0).
+void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
+              std::vector<DataFault>& out);
+
+/// As CheckHeld, of stretches from the first row on: those of a column that comes late repeat its first value.
+void CheckHeldFromStart(const CaseModel& model, std::size_t record,
+                        std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+
+/// Units, signs and exchanges of the set-points of a held rotor, which its scenario commands and no model predicts.
+void CheckCommands(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                   const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+
+/// The units of what drives a record with imposed motion or currents instead of being predicted: only values that cannot be
+/// show them.
+void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
+
+/// The unit and the sign of the measured angle of a prescribed speed.
+void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 
 /// Tells a fault "scenario", in place of those without a scenario that fits which were told of the record before.
 void TellScenario(DataFault fault, std::vector<DataFault>& out);

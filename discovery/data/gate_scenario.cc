@@ -8,21 +8,22 @@
 #include "core/record/channels.h"
 #include "discovery/case/case_file.h"
 #include "discovery/data/gate_columns.h"
+#include "discovery/model/record_rows.h"
 
 namespace ambrig {
 
 namespace {
 
-/// Error of the moving columns against predictions by name, over their movement.
-double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Record& other,
-                          std::size_t skip) {
+/// Error of the moving columns of `data` against predictions by name at any rate, over their movement.
+double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Record& data,
+                          const Record& other) {
   double sum = 0, n = 0;
   for (const GateColumn* c : moving) {
     const Channel* p = other.Find(c->name);
-    if (!p) return kInfinity;
+    if (!p || p->samples.empty()) return kInfinity;
     std::vector<double> predicted(c->column.size());
     for (std::size_t k = 0; k < predicted.size(); ++k)
-      predicted[k] = p->samples[std::min(skip + k, p->samples.size() - 1)] / c->floor;
+      predicted[k] = AtRow(p->samples, other.rate, data, k) / c->floor;
     sum += std::pow(
         ErrorAgainst(c->column.measured, predicted, c->column.ok) / c->match.measured_move, 2);
     n += 1;
@@ -69,15 +70,12 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   double least = 0.35 * error;
   for (std::size_t k = 0; k < model.data().records.size(); ++k) {
     const CaseRecord& o = model.data().records[k];
-    if (k == record || !OverTime(o) || o.scenario.start != r.scenario.start ||
-        o.scenario_file == r.scenario_file ||
-        std::abs(o.data.rate - r.data.rate) > 1e-6 * r.data.rate)
+    if (k == record || !OverTime(o) || o.scenario.start == StartState::kResting ||
+        o.scenario_file == r.scenario_file)
       continue;
     try {
       const Record p = model.Simulated(h, k, false, 1);
-      if (std::abs(p.rate - r.data.rate) > 1e-6 * p.rate) continue;
-      const auto skip = static_cast<std::size_t>(std::lround(r.data.start * p.rate));
-      const double left = ErrorAgainstRecord(moving, p, skip);
+      const double left = ErrorAgainstRecord(moving, r.data, p);
       if (left >= least) continue;
       least = left;
       f.with = o.scenario_file;

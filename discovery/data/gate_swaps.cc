@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/record/channels.h"
+#include "discovery/data/assignment.h"
 #include "discovery/data/gate_columns.h"
 
 namespace ambrig {
@@ -94,17 +97,82 @@ double LeftByExchange(const CaseModel& model, const std::vector<ExchangeSide>& a
   return left > most ? 1 : left;
 }
 
+std::string FileColumn(const CaseRecord& r, const std::string& channel) {
+  const auto it = r.sources.find(channel);
+  return it == r.sources.end() ? channel : it->second.column;
+}
+
+/// Cycles of three and more of a permutation.
+std::vector<std::vector<std::size_t>> LongCycles(const std::vector<std::size_t>& next) {
+  std::vector<std::vector<std::size_t>> out;
+  std::vector<char> seen(next.size(), 0);
+  for (std::size_t first = 0; first < next.size(); ++first) {
+    std::vector<std::size_t> cycle;
+    for (std::size_t k = first; !seen[k]; k = next[k]) seen[k] = 1, cycle.push_back(k);
+    if (cycle.size() > 2) out.push_back(cycle);
+  }
+  return out;
+}
+
+/// The share of the error that is left if each column of the cycle shows what the model expects of the next one; 1 where it
+/// is not believed: each has to gain, and none may be a coil that really carries what it shows.
+double LeftByCycle(const std::vector<const ExchangeSide*>& sides, const Eigen::MatrixXd& error,
+                   const std::vector<std::size_t>& cycle) {
+  constexpr double kOfEach = 0.6;
+  double before = 0, after = 0;
+  bool still = false;
+  for (std::size_t n = 0; n < cycle.size(); ++n) {
+    const auto row = static_cast<Eigen::Index>(cycle[n]),
+               column = static_cast<Eigen::Index>(cycle[(n + 1) % cycle.size()]);
+    if (sides[cycle[n]]->carried || error(row, column) > kOfEach * error(row, row)) return 1;
+    still = still || StandsStill(sides[cycle[n]]->column);
+    before += std::pow(error(row, row), 2);
+    after += std::pow(error(row, column), 2);
+  }
+  const double left = std::sqrt(after / before);
+  return left < (still ? kLeftOfHeld : kLeftOfKind) ? left : 1;
+}
+
+/// Three columns of a kind and more that were passed on round a circle: the assignment of all that err to what the model
+/// expects of all, of which pairs are left to the look at pairs.
+void FindCycles(const CaseModel& model, const CaseRecord& r, const std::vector<ExchangeSide>& all,
+                std::vector<DataFault>& out) {
+  std::map<std::pair<ChannelKind, bool>, std::vector<const ExchangeSide*>> by_kind;
+  for (const ExchangeSide& side : all)
+    if (!side.column.explained && side.error >= kLeastOfOne)
+      by_kind[KindOf(side.column)].push_back(&side);
+  for (const auto& [kind, sides] : by_kind) {
+    const auto n = static_cast<Eigen::Index>(sides.size());
+    if (n < 3) continue;
+    Eigen::MatrixXd error(n, n);
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = 0; b < n; ++b)
+        error(a, b) = Against(model, sides[static_cast<std::size_t>(a)]->column,
+                              sides[static_cast<std::size_t>(b)]->column)
+                          .error;
+    for (const auto& cycle : LongCycles(LeastAssignment(error.cwiseAbs2()))) {
+      const double left = LeftByCycle(sides, error, cycle);
+      if (left >= 1) continue;
+      for (std::size_t k = 0; k < cycle.size(); ++k) {
+        GateColumn& c = sides[cycle[k]]->column;
+        DataFault f = FaultLeaving(r, c.name, "swap", left);
+        f.with = sides[cycle[(k + 1) % cycle.size()]]->column.name;
+        f.mend = fmt::format("channels.\"{}\" = \"{}\"", f.with, FileColumn(r, c.name));
+        out.push_back(f);
+        c.explained = true;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
-  const auto column = [&](const std::string& name) {
-    const auto it = r.sources.find(name);
-    return it == r.sources.end() ? name : it->second.column;
-  };
   std::vector<ExchangeSide> all;
   for (GateColumn& c : columns) all.push_back(ExchangeSideOf(model, columns, c));
+  FindCycles(model, r, all, out);
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size(); ++j) {
       GateColumn &a = all[i].column, &b = all[j].column;
@@ -114,7 +182,7 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
       DataFault f = FaultLeaving(r, a.name, "swap", left);
       f.with = b.name;
       f.mend = fmt::format("channels = {{ \"{}\" = \"{}\", \"{}\" = \"{}\" }}", a.name,
-                           column(b.name), b.name, column(a.name));
+                           FileColumn(r, b.name), b.name, FileColumn(r, a.name));
       out.push_back(f);
       a.explained = b.explained = true;
     }

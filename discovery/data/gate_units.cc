@@ -208,7 +208,10 @@ void TellFactor(const CaseRecord& r, GateColumn& c, const FoundFactor& found,
 
 std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor) {
   const auto it = r.sources.find(channel);
-  const ColumnSource source = it == r.sources.end() ? ColumnSource{channel, "", 1} : it->second;
+  const auto id = ParseChannel(channel);
+  const ColumnSource source = it == r.sources.end()
+                                  ? ColumnSource{channel, id ? std::string(id->row().unit) : "", 1}
+                                  : it->second;
   const double right = source.factor / factor;  // SI per number in the file
   static constexpr std::array<std::pair<double, const char*>, 4> kPrefixes = {
       {{1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e3, "k"}}};
@@ -216,6 +219,14 @@ std::string UnitLine(const CaseRecord& r, const std::string& channel, double fac
     if (std::abs(right / size - 1) < 1e-6)
       return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}{}\" }}", channel,
                          source.column, prefix, source.si);
+  if (source.si == "rad" && std::abs(right / (kPi / 180) - 1) < 1e-6)
+    return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"deg\" }}", channel,
+                       source.column);
+  if (source.si == "rad/s")
+    for (const auto& [size, unit] : {std::pair{kRpm, "rpm"}, {kTurn, "Hz"}, {kPi / 180, "deg/s"}})
+      if (std::abs(right / size - 1) < 1e-6)
+        return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}\" }}", channel,
+                           source.column, unit);
   return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}\", gain = {:.9g} }}",
                      channel, source.column, source.si, source.factor / factor);
 }

@@ -7,42 +7,21 @@
 #include <iterator>
 
 #include "core/record/channels.h"
-#include "discovery/data/data_gate.h"
+#include "discovery/data/gate_columns.h"
+#include "discovery/data/gate_set_points.h"
 #include "discovery/data/held_values.h"
 #include "discovery/data/noise_estimate.h"
-#include "rig/clearance.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr double kAbsurd = 4;             // times the largest value that a channel can show
-constexpr double kFewAbsurd = 0.05;       // of the rows; more: the column's unit is wrong
-constexpr std::size_t kClipRun = 4;       // equal neighbours at the extreme
-constexpr std::size_t kCoarse = 3;        // readings that a converter repeats usually
-constexpr double kClipShare = 0.005;      // of the rows
-constexpr double kFrozenSetPoint = 0.08;  // of the rows
-constexpr double kBeyondFloors = 5;       // floors by which the prediction passes the extreme
-constexpr double kWithinShare = 0.25;     // of the rows of a stretch that no limit explains
-
-/// Largest value that the channel can show [SI]; infinity where nothing limits it.
-double LimitOf(const RigParameters& rig, const std::string& channel) {
-  const auto id = ParseChannel(channel);
-  if (!id) return kInfinity;
-  if (id->kind == ChannelKind::kCoilCurrent || id->kind == ChannelKind::kSetPoint)
-    return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
-  if (id->kind == ChannelKind::kDuty) return 1;
-  if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
-  for (const BearingParameters& b : rig.bearings)
-    for (const std::string& axis : b.Axes())
-      if (axis == channel) return 2 * GapOf(b);
-  return kInfinity;
-}
-
-std::string LeaveOut(const CaseRecord& r, std::size_t first, std::size_t count) {
-  return fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.TimeAt(first) - 0.5 / r.data.rate,
-                     r.data.TimeAt(first + count) + 0.5 / r.data.rate);
-}
+constexpr double kAbsurd = 4;          // times the largest value that a channel can show
+constexpr double kFewAbsurd = 0.05;    // of the rows; more: the column's unit is wrong
+constexpr std::size_t kClipRun = 4;    // equal neighbours at the extreme
+constexpr std::size_t kCoarse = 3;     // readings that a converter repeats usually
+constexpr double kClipShare = 0.005;   // of the rows
+constexpr double kWithinShare = 0.25;  // of the rows of a stretch that no limit explains
 
 const Channel& ChannelOf(const CaseRecord& r, const std::string& name) {
   return *r.data.Find(name);
@@ -85,7 +64,7 @@ void TellRange(const CaseRecord& r, GateColumn& c, const std::vector<std::size_t
   f.channel = c.name;
   f.fault = "range";
   f.seconds = count / r.data.rate;
-  f.mend = LeaveOut(r, rows.front(), 1);
+  f.mend = LeaveOutLine(r, rows.front(), 1);
   f.probability = 0.999;
   out.push_back(f);
 }
@@ -171,72 +150,84 @@ bool StandsWhileItComesBack(const GateColumn& c, const HeldStretch& s, double si
   return within > kWithinShare * static_cast<double>(s.count);
 }
 
-void Held(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
-          std::vector<DataFault>& out) {
-  DataFault f;
-  f.record = r.data_file;
-  f.channel = channel;
-  f.fault = s.value == 0 ? "lost" : "freeze";
-  f.seconds = static_cast<double>(s.count) / r.data.rate;
-  f.mend = LeaveOut(r, s.first, s.count - 1);
-  f.probability = 0.99;
-  out.push_back(f);
-}
-
 /// A column that the data-quality pass refused: it stands still where it should move.
 void StuckColumns(const CaseRecord& r, std::vector<DataFault>& out) {
   for (std::size_t k = 0; k < r.quality.size(); ++k)
     if (!r.quality[k].use && r.quality[k].verdict.starts_with("stuck") &&
         r.scenario.start != StartState::kClamped)
-      Held(r, r.quality[k].channel, {0, r.data.rows(), r.data.channels[k].samples[0]}, out);
+      TellHeld(r, r.quality[k].channel, {0, r.data.rows(), r.data.channels[k].samples[0]}, out);
 }
 
 }  // namespace
 
-void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
-               std::vector<DataFault>& out) {
-  const CaseRecord& r = model.data().records[record];
-  StuckColumns(r, out);
+namespace {
+
+/// Rows at a limit that the model exceeds, on both sides; `hold`: rows of one reading.
+std::size_t RowsAtLimits(const CaseModel& model, const CaseRecord& r, const GateColumn& c,
+                         const std::vector<double>& y, std::size_t hold) {
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  if (*low == *high) return 0;
+  if (IsOfKind(c.name, ChannelKind::kSetPoint))
+    return ClippedSetPointRows(model, r, c, y, *high) + ClippedSetPointRows(model, r, c, y, *low);
+  return std::max(ClippedRows(c, y, hold, *high, 1) + ClippedRows(c, y, hold, *low, -1),
+                  FlatTopRows(model, c, y, *low, *high));
+}
+
+void TellClipped(const CaseRecord& r, GateColumn& c, std::size_t rows,
+                 std::vector<DataFault>& out) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = c.name;
+  f.fault = "clip";
+  f.seconds = static_cast<double>(rows) / r.data.rate;
+  f.mend = fmt::format("channels.\"{}\".use = false", c.name);
+  f.probability = 0.98;
+  out.push_back(f);
+  c.explained = true;
+}
+
+/// Limits, and stretches that stand still: those from the first row on, or all others.
+void CheckStretches(const CaseModel& model, const CaseRecord& r, bool from_first_row,
+                    std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
   for (GateColumn& c : columns) {
     const bool set_point = IsOfKind(c.name, ChannelKind::kSetPoint);
     const std::vector<double>& y = ChannelOf(r, c.name).samples;
-    // set-points and duties stand at their limits when the controller asks for more
+    // duties stand at their limits when the controller asks for more
     if (IsOfKind(c.name, ChannelKind::kDuty) || IsOfKind(c.name, ChannelKind::kSpeed) ||
-        y.size() != c.column.size())
+        y.size() != c.column.size() || c.explained)
       continue;
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
     // A record faster than the controller repeats every reading; a coarse converter repeats values everywhere, also
     // between the extremes.
     const std::size_t hold = RegularHold(y);
     if (UsualHold(OffTheExtremes(y, *low, *high)) > kCoarse * hold) continue;
-    if (!set_point && *low < *high) {
-      const std::size_t rows =
-          std::max(ClippedRows(c, y, hold, *high, 1) + ClippedRows(c, y, hold, *low, -1),
-                   FlatTopRows(model, c, y, *low, *high));
-      if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
-        DataFault f;
-        f.record = r.data_file;
-        f.channel = c.name;
-        f.fault = "clip";
-        f.seconds = static_cast<double>(rows) / r.data.rate;
-        f.mend = fmt::format("channels.\"{}\".use = false", c.name);
-        f.probability = 0.98;
-        out.push_back(f);
-        c.explained = true;
-        continue;
-      }
+    const std::size_t rows = RowsAtLimits(model, r, c, y, hold);
+    if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
+      TellClipped(r, c, rows, out);
+      continue;
     }
     if (r.scenario.start == StartState::kResting || UsualHold(y) > kCoarse * hold) continue;
     const HeldStretch s = FrozenStretch(y);
-    if (s.count == 0 || (set_point && (s.value == *low || s.value == *high))) continue;
-    // a force at its limit holds single set-points for some rows
-    if (set_point && static_cast<double>(s.count) < kFrozenSetPoint * static_cast<double>(y.size()))
-      continue;
+    if (s.count == 0 || (s.first == 0) != from_first_row) continue;
+    if (set_point && (s.value == *low || s.value == *high || !SetPointFroze(r, c, s))) continue;
     const double extreme = s.value == *high ? 1 : s.value == *low ? -1 : 0;
     if (s.value != 0 && extreme != 0 && !StandsWhileItComesBack(c, s, extreme)) continue;
-    Held(r, c.name, s, out);
+    TellHeld(r, c.name, s, out);
     c.explained = true;
   }
+}
+
+}  // namespace
+
+void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+               std::vector<DataFault>& out) {
+  StuckColumns(model.data().records[record], out);
+  CheckStretches(model, model.data().records[record], false, columns, out);
+}
+
+void CheckHeldFromStart(const CaseModel& model, std::size_t record,
+                        std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+  CheckStretches(model, model.data().records[record], true, columns, out);
 }
 
 }  // namespace ambrig

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/data/lonely_rows.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/screen.h"
 
@@ -96,6 +97,11 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   model.noise_model = c.noise;
   const NoiseFloor floor = FindFloor(model, h);
   c.data = InspectDataBelow(model, floor.clean, h, stated);
+  const std::vector<LonelyRow> lonely = LonelyRowsOf(model, floor.clean);
+  const std::vector<SampleSpan> alone = SpansOf(lonely);
+  model.LeaveOut(alone);
+  c.unpredictable.insert(c.unpredictable.end(), alone.begin(), alone.end());
+  if (c.data.empty()) RequireCountedRows(model);
   c.unpredictable.insert(c.unpredictable.end(), floor.unpredictable.begin(),
                          floor.unpredictable.end());
   c.predicted = floor.clean;
@@ -116,6 +122,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
     c.records.push_back(std::move(out));
   }
   for (const DataFault& f : c.data) c.words.push_back("data: " + FaultText(f));
+  for (const std::string& line : LonelyRemarks(model.data(), lonely)) c.words.push_back(line);
   for (const std::string& line : NoiseRemarks(c.noise)) c.words.push_back(line);
   for (const std::string& line : Words(c)) c.words.push_back(line);
   return c;

@@ -12,7 +12,8 @@
 namespace ambrig {
 
 StageRatios RatiosOf(const CaseModel& model, const FitResult& fit) {
-  return {fit.ratio_fit, fit.ratio_validate, WorstRecordRatio(model, fit.residual)};
+  return {fit.ratio_fit, fit.ratio_validate, WorstRecordRatio(model, fit.residual),
+          WorstRatio(model, fit.residual, Which::kAll)};
 }
 
 ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effective_sample_size,

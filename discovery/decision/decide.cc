@@ -98,7 +98,11 @@ std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
                       const ParameterNeed& need, FoundEffect found) {
   if (found == FoundEffect::kEstablished) return "effect";
   const double after = base.Answered(), before = nominal.Answered();
-  if (before < kAgrees * 1.02) return "none";
+  // A channel among many may say that the numbers differ: parameters that bring it to the noise are needed.
+  constexpr double kShowsInChannel = 1.5, kCured = 0.75;
+  const bool channel_needs = nominal.worst_channel > kShowsInChannel &&
+                             base.worst_channel < kCured * nominal.worst_channel;
+  if (before < kAgrees * 1.02 && !channel_needs) return "none";
   const bool possible = need.largest_shift < kNeverParameter && need.possible &&
                         (need.largest_shift < kDoubtfulShift || need.constant);
   if (!possible) return "unknown";

@@ -30,9 +30,10 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
 bool ClosesAlone(const FitResult& before, const FitResult& after, double score_gain,
                  double next_gain);
 
-/// Errors over the noise of one stage of the search: fitted records, unseen ones, the worst record.
+/// Errors over the noise of one stage of the search: fitted records, unseen ones, the worst record, the worst channel
+/// of a record.
 struct StageRatios {
-  double fit = 0, validate = 0, worst_record = 0;
+  double fit = 0, validate = 0, worst_record = 0, worst_channel = 0;
   /// The largest that a verdict has to answer for.
   double Answered() const;
 };

@@ -96,6 +96,7 @@ std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double na
 
 bool HasSize(const EffectInstance& effect) {
   const EffectDescription* d = FindEffect(effect.name);
+  bool told = false, untold = false;  // sizes whose sd the records tell, and others
   for (std::size_t k = 0; k < effect.table.size(); ++k) {
     const EffectParameter& p = effect.table[k];
     if (!p.has_null || (d && !d->Switches(p))) continue;
@@ -105,9 +106,12 @@ bool HasSize(const EffectInstance& effect) {
     const double distance =
         std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
     if (distance == 0) continue;
-    if (sd <= 0 || distance >= kSeen * sd) return true;
+    // A size whose slope the records do not tell may be one that has none (whole periods of delay), or one too small
+    // to show (a dead duty below every duty): that is none of the usual size, beside sizes that are told.
+    if (sd > 0 ? distance >= kSeen * sd : distance >= p.typical_lo) return true;
+    (sd > 0 ? told : untold) = true;
   }
-  return false;
+  return untold && !told;
 }
 
 bool HasSize(const FitResult& fit, std::size_t effect) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "discovery/data/lonely_rows.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
@@ -61,6 +62,11 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   out_.effective_sample_size = floor.effective_sample_size;
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
+  const std::vector<LonelyRow> lonely = LonelyRowsOf(full_, floor.clean);
+  full_.LeaveOut(SpansOf(lonely));
+  model_.LeaveOut(SpansOf(lonely));
+  for (const std::string& line : LonelyRemarks(full_.data(), lonely)) out_.warnings.push_back(line);
+  if (out_.data.empty()) RequireCountedRows(full_);
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);
@@ -110,6 +116,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   while (AdoptBesideShape(now)) continue;
   Backward(base, now);
   RejudgeNames(base, now);
+  DropUnnamed(base, now);
   if (!out_.adopted.empty()) {
     FitPastBursts(now);
     if (PassOverBursts(now)) base = At(base.hypothesis);
@@ -122,7 +129,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.final_fit = now;
   out_.final_ratio_fit = now.ratio_fit;
   out_.final_ratio_validate = now.ratio_validate;
-  out_.warnings = now.warnings;
+  out_.warnings.insert(out_.warnings.end(), now.warnings.begin(), now.warnings.end());
   if (floor_renewed_)
     out_.warnings.push_back(
         "the loop of the model found passes more noise than the rig file's: the noise floor is "
@@ -136,7 +143,14 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
 /// What a reader of this verdict asks next.
 void Explainer::AddToVerdict(const FitResult& base, const FitResult& now) {
   NoteShifts(out_.verdict == "effect" ? now : base);
-  if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));
+  if (out_.verdict == "unknown") {
+    // The model may just hold the rotor on the rows that were fitted.
+    const FitResult all = AllRows(now);
+    if (all.Stands())
+      out_.unexplained = Describe(full_, all);
+    else if (now.Stands())
+      out_.unexplained = Describe(model_, now);
+  }
   if (out_.verdict == "none" || out_.verdict == "parameters") FindHidden(now);
   if (out_.verdict == "effect" || out_.verdict == "unknown") FindConfusable();
 }

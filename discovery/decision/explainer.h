@@ -137,6 +137,7 @@ class Explainer {
   bool IsBesideShape(const EffectInstance& e) const;
   /// An effect that its successors made needless goes again.
   void Backward(const FitResult& base, FitResult& now);
+  void DropUnnamed(const FitResult& base, FitResult& now);
   /// The rig parameters with all adopted effects but this one; nothing where a short fit shows that it is needed.
   std::optional<FitResult> FitWithout(const FitResult& base, const FitResult& now,
                                       std::size_t adopted) const;

@@ -229,6 +229,7 @@ bool Explainer::FindInputs(const FitResult& base) {
   full_.runs += trial.runs;
   if (!predicted) return false;
   FitResult by_slope = AllRows(base), simulated = by_slope;
+  if (!by_slope.Stands()) return false;
   simulated.residual = Residual(full_, *predicted);
   simulated.ratio_fit = Ratio(full_, simulated.residual, Which::kFit);
   simulated.ratio_validate = Ratio(full_, simulated.residual, Which::kValidate);

@@ -49,6 +49,29 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
   }
 }
 
+/// A further effect in whose place several others explain as much is none that can be named: a detail of the law beside
+/// it as a rule.
+void Explainer::DropUnnamed(const FitResult& base, FitResult& now) {
+  constexpr double kLeastOwn = 0.3;
+  for (std::size_t k = 1; k < out_.adopted.size();) {
+    const auto judged = out_.beside.find(Named(out_.adopted[k]));
+    const bool named = judged == out_.beside.end() ||
+                       std::ranges::any_of(judged->second, [&](const RankedEffect& r) {
+                         return IsSameName(r.effect, out_.adopted[k]) && r.probability >= kLeastOwn;
+                       });
+    std::optional<FitResult> without;
+    if (!named) without = FitWithout(base, now, k);
+    if (!without) {
+      ++k;
+      continue;
+    }
+    out_.warnings.push_back(Named(out_.adopted[k]) +
+                            " is one of several effects that explain as much: it is not named");
+    out_.beside.erase(judged);
+    TakeOut(k, std::move(*without), now);
+  }
+}
+
 std::optional<FitResult> Explainer::FitWithout(const FitResult& base, const FitResult& now,
                                                std::size_t adopted) const {
   constexpr double kShare = 0.9, kGain = 200;  // of the error, of the score: plainly needed

@@ -36,7 +36,7 @@ std::optional<FitResult> Explainer::BesideFreeShape(const FitResult& now) const 
   double score = ScoreOf(now) - kDetailGain;
   for (std::size_t k = 0; k < out_.adopted.size(); ++k) {
     const EffectInstance& law = out_.adopted[k];
-    if (!IsMotionLaw(law.name) || law.target == "z") continue;
+    if ((!IsMotionLaw(law.name) && !IsIronLaw(law.name)) || law.target == "z") continue;
     const std::size_t place = rig_.effects.size() + k;
     const Hypothesis others = WithoutEffect(now.hypothesis, place);
     const Eigen::MatrixXd lent = SensitivitiesWithout(now, place);

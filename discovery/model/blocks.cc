@@ -77,8 +77,9 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
       PidState state;
       const std::string axis = b.Axes()[side];
       const std::size_t settle = 30;  // the derivative's memory
-      double offset = 0;
+      std::size_t since = 0;  // rows since the start, or since a gap: its integral is unknown
       std::vector<double> errors;
+      std::vector<char> counts;
       for (std::size_t k = 0; k + 1 < d.rows(); ++k) {
         const double t = d.TimeAt(k) + 1e-10;
         double r = 0, f = 0;
@@ -89,18 +90,17 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
         const double out_force =
             PidStep(pid, Ts, PidFilter(pid, Ts), y[side]->samples[k], r, f, state);
         errors.push_back(force(k + 1) - out_force);
-        if (k == settle) {  // start the integral where the data stand
-          state.integral += errors.back();
-          offset = 0;
-        }
+        if (since == settle) state.integral += errors.back();  // starts where the data stand
+        counts.push_back(since > settle && data.Sound(k + 1) ? 1 : 0);
+        since = data.Sound(k + 1) ? since + 1 : 0;
       }
       double mean = 0;
       double count = 0;
-      for (std::size_t k = settle + 1; k < errors.size(); ++k)
-        if (data.Sound(k + 1)) mean += errors[k] - offset, count += 1;
+      for (std::size_t k = 0; k < errors.size(); ++k)
+        if (counts[k]) mean += errors[k], count += 1;
       mean /= std::max<double>(1, count);
-      for (std::size_t k = settle + 1; k < errors.size(); ++k)
-        if (data.Sound(k + 1)) error.Add((errors[k] - mean) / kc);
+      for (std::size_t k = 0; k < errors.size(); ++k)
+        if (counts[k]) error.Add((errors[k] - mean) / kc);
     }
   }
   Put(out, "controller", error);

@@ -18,6 +18,8 @@ constexpr int kForms = 25;       // of a shape parameter, over somewhat more tha
 constexpr double kWider = 1.4;
 constexpr double kApartForms = 0.12;  // forms whose shapes differ by less are alike
 constexpr std::size_t kForEach = 3;   // starts for each estimate
+constexpr double kLeastSplit = 0.02,
+                 kMostSplit = 0.7;  // of two frequencies (logarithm of their ratio)
 constexpr double kResembles =
     0.5;  // least share of the estimate's gains (squares) that a start has
 
@@ -65,7 +67,8 @@ std::vector<EffectInstance> FormsAt(const EffectInstance& null, const ResonanceE
         for (EffectInstance& e : forms) e.values[k] = p.typical_lo;
       continue;
     }
-    if (p.name == "frequency" || p.name == "damping" || p.name == "gyro") continue;
+    if (p.name == "frequency" || p.name == "damping" || p.name == "gyro" || p.name == "ratio")
+      continue;
     std::vector<EffectInstance> more;
     const double lo = p.typical_lo / kWider, hi = p.typical_hi * kWider;
     for (const EffectInstance& e : forms)
@@ -111,6 +114,23 @@ bool AlikeInShape(const EffectInstance& a, const EffectInstance& b) {
   return true;
 }
 
+/// A resonance of other frequencies along x and y shows as two: the starts, and those whose second frequency is that of
+/// another estimate.
+std::vector<EffectInstance> WithSplits(const std::vector<EffectInstance>& starts,
+                                       const std::vector<ResonanceEstimate>& estimates) {
+  std::vector<EffectInstance> out = starts;
+  for (const EffectInstance& start : starts)
+    for (const ResonanceEstimate& other : estimates) {
+      const double ratio = other.frequency / start.Value("frequency");
+      EffectInstance split = start;
+      SetIfThere(split, "ratio", ratio);
+      if (split.values != start.values && std::abs(std::log(ratio)) > kLeastSplit &&
+          std::abs(std::log(ratio)) < kMostSplit)
+        out.push_back(split);
+    }
+  return out;
+}
+
 }  // namespace
 
 EffectInstance ScaledResonance(const EffectInstance& e, double factor) {
@@ -152,7 +172,7 @@ std::vector<EffectInstance> ResonanceStarts(const RigParameters& rig, const Effe
         kept.push_back(start);
     out.insert(out.end(), kept.begin(), kept.end());
   }
-  return out;
+  return WithSplits(out, estimates);
 }
 
 }  // namespace ambrig

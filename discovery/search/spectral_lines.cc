@@ -10,8 +10,10 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kHighestLine = 0.4;  // of the sampling rate
-constexpr double kLinesApart = 0.01;  // of their frequency
+constexpr double kHighestLine = 0.4;    // of the sampling rate
+constexpr double kLinesApart = 0.01;    // of their frequency
+constexpr std::size_t kBesideLine = 4;  // cells: two widths of a line
+constexpr double kLineOverRest = 3;     // of the power
 
 /// A length that transforms quickly: a power of two, at least twice the rows.
 std::size_t PaddedLength(std::size_t rows) {
@@ -80,9 +82,18 @@ std::vector<double> StrongestLines(const CaseModel& model, const std::vector<dou
     }
     for (std::size_t c = 0; c < cells; ++c) power[c] += own[c];
   }
-  for (std::size_t c = 0; c < power.size(); ++c)
+  // A line stands out of what is beside it; a smooth spectrum has none.
+  std::vector<double> lines(power.size());
+  for (std::size_t c = 0; c < power.size(); ++c) {
     f.push_back(band.from + static_cast<double>(c) / (2 * longest));
-  return Peaks(f, power, band.count, kLinesApart);
+    const bool inside = c >= kBesideLine && c + kBesideLine < power.size();
+    if (inside &&
+        power[c] > kLineOverRest * std::max(power[c - kBesideLine], power[c + kBesideLine]))
+      lines[c] = power[c];
+  }
+  std::vector<double> out = Peaks(f, lines, band.count, kLinesApart);
+  std::erase_if(out, [&](double g) { return lines[cell_of(g)] == 0; });
+  return out;
 }
 
 }  // namespace ambrig

@@ -41,7 +41,9 @@ void OdeRotor::Rig::AddForces(const MotionState& s, const DofVector& Q, const Ve
     const BaseOnFloor& b = model_.base();
     const Vector3d push = stator + Vector3d(f.stator_x, f.stator_y, 0);
     world_.AddForce(
-        base_, -b.stiffness * BasePlace() - b.damping * BaseVelocity() - push - b.mass * floor);
+        base_, -Eigen::Vector3d(b.stiffness[0], b.stiffness[1], 0).cwiseProduct(BasePlace()) -
+                   Eigen::Vector3d(b.damping[0], b.damping[1], 0).cwiseProduct(BaseVelocity()) -
+                   push - b.mass * floor);
   }
   AddMounts(floor);
 }

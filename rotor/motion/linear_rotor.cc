@@ -70,8 +70,8 @@ void AddBase(const RotorModel& model, LinearRotor& out) {
   const BaseOnFloor& base = model.base();
   for (Index side = 0; side < 2; ++side) {
     out.M(d + side, d + side) = base.mass;
-    out.D(d + side, d + side) = base.damping;
-    out.K(d + side, d + side) = base.stiffness;
+    out.D(d + side, d + side) = base.damping[static_cast<std::size_t>(side)];
+    out.K(d + side, d + side) = base.stiffness[static_cast<std::size_t>(side)];
     out.M(side, d + side) = model.parameters().mass;
     for (const AuxiliaryPlane& aux : model.auxiliaries())
       if (aux.mount_dof >= 0) out.M(aux.mount_dof + side, d + side) = aux.parameters.mount_mass;

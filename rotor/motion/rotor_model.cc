@@ -62,10 +62,10 @@ void RotorModel::SetMount(std::size_t k, double stiffness, double damping, doubl
   inverse_mass_[AsSize(plane.mount_dof)] = inverse_mass_[AsSize(plane.mount_dof) + 1] = 1 / mass;
 }
 
-void RotorModel::SetBase(double mass, double stiffness, double damping) {
-  base_ = {mass, stiffness, damping};
-  base_dof_ = NewDof(mass);
-  NewDof(mass);
+void RotorModel::SetBase(const BaseOnFloor& base) {
+  base_ = base;
+  base_dof_ = NewDof(base.mass);
+  NewDof(base.mass);
 }
 
 void RotorModel::AddLoad(double z, double fx, double fy, double fz, double start, double stop) {
@@ -117,8 +117,8 @@ void RotorModel::Rest(MotionState& s) const {
 
 void RotorModel::SettleBase(MotionState& s, double stator_x, double stator_y) const {
   if (base_dof_ < 0) return;
-  s.q[AsSize(base_dof_)] = -stator_x / base_.stiffness;
-  s.q[AsSize(base_dof_) + 1] = -stator_y / base_.stiffness;
+  s.q[AsSize(base_dof_)] = -stator_x / base_.stiffness[0];
+  s.q[AsSize(base_dof_) + 1] = -stator_y / base_.stiffness[1];
 }
 
 double RotorModel::Energy(const MotionState& s) const {

@@ -47,7 +47,8 @@ struct ExternalLoad {
 
 /// The stator as a mass on a spring and a damper in both radial directions.
 struct BaseOnFloor {
-  double mass = 0, stiffness = 0, damping = 0;  // [kg], [N/m], [N s/m]
+  double mass = 0;                                     // [kg]
+  std::array<double, 2> stiffness = {}, damping = {};  // along x and y [N/m], [N s/m]
 };
 
 class RotorModel {
@@ -64,7 +65,7 @@ class RotorModel {
   }
   /// Puts the race of auxiliary plane `k` on a mount (or changes the mount it has).
   void SetMount(std::size_t k, double stiffness, double damping, double mass);
-  void SetBase(double mass, double stiffness, double damping);
+  void SetBase(const BaseOnFloor& base);
   void AddLoad(double z, double fx, double fy, double fz, double start, double stop);
   void SetSpeed(const SpeedProfile& profile, double free_from = kInfinity);
 

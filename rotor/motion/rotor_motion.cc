@@ -52,9 +52,12 @@ void AddContact(const AuxiliaryPlane& aux, double journal_radius, PlanePoint jou
 /// A base on springs, coordinates d and d + 1, relative to the floor, which may itself accelerate.
 void AccelerateBase(const BaseOnFloor& base, std::size_t d, const MotionState& s,
                     const RotorForces& f, DofVector& a) {
-  a[d] = (-base.stiffness * s.q[d] - base.damping * s.v[d] - f.stator_x) / base.mass - f.base_ax;
-  a[d + 1] = (-base.stiffness * s.q[d + 1] - base.damping * s.v[d + 1] - f.stator_y) / base.mass -
-             f.base_ay;
+  const double stator[2] = {f.stator_x, f.stator_y}, floor[2] = {f.base_ax, f.base_ay};
+  for (std::size_t side = 0; side < 2; ++side)
+    a[d + side] = (-base.stiffness[side] * s.q[d + side] - base.damping[side] * s.v[d + side] -
+                   stator[side]) /
+                      base.mass -
+                  floor[side];
 }
 
 }  // namespace

@@ -216,5 +216,17 @@ TEST(MotionForce, FloorMovesTheRotorDirectlyOrThroughTheBase) {
   EXPECT_NEAR(a[0], 0, 1e-15);
 }
 
+// Each direction swings with its own frequency: -w² of the deflection, from k = M w².
+TEST(BaseMode, IsStifferOneWay) {
+  Plant plant = PlantOf(
+      {{"base-mode", "rig", {{"mass", 40}, {"frequency", 20}, {"damping", 0}, {"ratio", 1.5}}}});
+  const std::size_t base = static_cast<std::size_t>(plant.rotor.dof()) - 2;
+  MotionState s;
+  s.q[base] = s.q[base + 1] = 1e-5;
+  const DofVector a = Accelerations(plant, s);
+  EXPECT_NEAR(a[base], -std::pow(2 * kPi * 20, 2) * 1e-5, 1e-12);
+  EXPECT_NEAR(a[base + 1], -std::pow(2 * kPi * 30, 2) * 1e-5, 1e-12);
+}
+
 }  // namespace
 }  // namespace ambrig::motion

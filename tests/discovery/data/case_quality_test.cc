@@ -118,6 +118,20 @@ TEST_F(CaseQuality, ARecordLongerThanItsScenario) {
   EXPECT_TRUE(lengths(Read()).empty()) << told[0].mend;
 }
 
+// A logger with a trigger writes what was before it, and one that is stopped by hand what comes after.
+TEST_F(CaseQuality, ALittleBeforeAndAfterAScenarioIsLeftOut) {
+  Edit([](int, int column, const std::string& cell) {
+    return column == kTime ? std::to_string(1.08 * std::stod(cell) - 0.5) : cell;
+  });
+  const Case c = Read();
+  EXPECT_GE(c.records[0].data.start, 0);
+  EXPECT_LT(c.records[0].data.start * c.records[0].data.rate, 1);
+  EXPECT_LE(c.records[0].data.TimeAt(c.records[0].data.rows() - 1), 12);
+  EXPECT_EQ(c.records[0].behind, 0);  // no other scenario's
+  EXPECT_TRUE(Noted("the first 0.5"));
+  EXPECT_TRUE(Noted("s, after the scenario, are left out"));
+}
+
 TEST_F(CaseQuality, ARecordAfterItsScenarioIsRefused) {
   Edit([](int, int column, const std::string& cell) {
     return column == kTime ? std::to_string(100 + std::stod(cell)) : cell;

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/record/channels.h"
+#include "discovery/model/record_traits.h"
 #include "discovery/practice/spoil.h"
 #include "effects/catalogue.h"
 #include "tests/discovery/data/gate_case.h"
@@ -41,6 +43,46 @@ TEST(GateClocks, TheColumnsOfOneInstrument) {
     EXPECT_EQ(faults[k].channel, readings[k]);
     EXPECT_NEAR(faults[k].seconds, 4e-3, 2e-4);
     EXPECT_NE(faults[k].mend.find("late = 0.00"), std::string::npos) << faults[k].mend;
+  }
+}
+
+/// Columns as if they came `rows` late: until then their first value is repeated.
+void Delay(CaseRecord& r, std::ptrdiff_t rows, const std::function<bool(const ChannelId&)>& which) {
+  for (Channel& c : r.data.channels)
+    if (const auto id = ParseChannel(c.name); id && which(*id)) {
+      std::copy_backward(c.samples.begin(), c.samples.end() - rows, c.samples.end());
+      std::fill_n(c.samples.begin(), rows, c.samples[0]);
+    }
+}
+
+// One converter module, one bearing's electronics, one amplifier of load cells: all of their columns are late, no other is.
+TEST(GateClocks, TheColumnsOfOneConverter) {
+  struct Group {
+    const char* record;
+    std::function<bool(const ChannelId&)> holds;
+  };
+  for (const Group& group : {Group{kMultisine,
+                                   [](const ChannelId& id) {
+                                     return id.plane == "B" && id.kind == ChannelKind::kCoilCurrent;
+                                   }},
+                             {kMultisine, [](const ChannelId& id) { return id.plane == "B"; }},
+                             {testing::kClampedRecord, [](const ChannelId& id) {
+                                return id.kind == ChannelKind::kLoadCell;
+                              }}}) {
+    Case c = Measured({}, 0, kMultisine);
+    CaseRecord& r = c.records[RecordNamed(c, group.record)];
+    Delay(r, 62, group.holds);
+    std::size_t columns = 0;
+    for (const Channel& channel : r.data.channels)
+      columns += group.holds(*ParseChannel(channel.name)) && IsPredicted(r, channel.name) ? 1 : 0;
+    const auto faults = FaultsOf(c);
+    EXPECT_EQ(faults.size(), columns);
+    for (const DataFault& f : faults) {
+      EXPECT_EQ(f.fault, "lag") << FaultText(f);
+      EXPECT_EQ(f.record, group.record);
+      EXPECT_TRUE(group.holds(*ParseChannel(f.channel))) << f.channel;
+      EXPECT_NEAR(f.seconds, 62 / 12500.0, 2e-4);
+    }
   }
 }
 

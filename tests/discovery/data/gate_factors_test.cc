@@ -37,7 +37,7 @@ void ExpectUnits(const char* record, const std::string& channel, const std::vect
 // Of a speed column the prediction is the scenario's own profile.
 TEST(GateFactors, ASpeedInAnotherUnitIsNamedWithItsFactor) {
   const char* kTurning = "multisine at 60 Hz";
-  for (const double factor : {60 / (2 * M_PI), 1 / (2 * M_PI), -1.0}) {
+  for (const double factor : {60 / (2 * M_PI), 1 / (2 * M_PI), 180 / M_PI, -1.0}) {
     Case c = Measured({}, 0, kTurning);
     for (double& v : SamplesOf(c, kTurning, "omega")) v *= factor;
     const auto faults = FaultsOf(c);
@@ -67,6 +67,19 @@ std::string RunUpOf(const RigParameters& rig) {
   for (const ExaminationRecord& r : Examination(rig, 4))
     if (r.title.starts_with("run-up")) return r.title;
   return "";
+}
+
+// A logger that stops reading the speed in a run-up has not run another scenario.
+TEST(GateFactors, ASpeedThatStandsWhileItsProfileMovesIsFrozen) {
+  const std::string run_up = RunUpOf(RadialRig());
+  Case c = Measured({}, 0, run_up);
+  std::vector<double>& omega = SamplesOf(c, run_up.c_str(), "omega");
+  const std::size_t rows = omega.size() * 3 / 10;
+  std::fill_n(omega.begin() + static_cast<std::ptrdiff_t>(rows), rows, omega[rows]);
+  const auto faults = FaultsOf(c);
+  ExpectOnly(faults, "freeze", "omega");
+  EXPECT_NEAR(faults[0].seconds,
+              static_cast<double>(rows) / c.records[RecordNamed(c, run_up)].data.rate, 2e-3);
 }
 
 // A clock keeps the profile's corners, the lag of a drive rounds them.

@@ -149,6 +149,17 @@ TEST(VerdictOf, NothingIsMissingBelowSevenPercent) {
   EXPECT_EQ(VerdictOf({1.0, 1.08, 1}, {1, 1, 1}, none, FoundEffect::kNone), "parameters");
 }
 
+// One channel of many that the parameters bring to the noise.
+TEST(VerdictOf, AChannelMayNeedTheParameters) {
+  const ParameterNeed none;
+  EXPECT_EQ(VerdictOf({1.06, 1.05, 1.1, 2.2}, {1.01, 1.01, 1.05, 1.1}, none, FoundEffect::kNone),
+            "parameters");
+  EXPECT_EQ(VerdictOf({1.06, 1.05, 1.1, 2.2}, {1.06, 1.05, 1.1, 2.1}, none, FoundEffect::kNone),
+            "none");
+  EXPECT_EQ(VerdictOf({1.0, 1.0, 1.0, 1.2}, {0.99, 0.99, 1.0, 1.0}, none, FoundEffect::kNone),
+            "none");
+}
+
 TEST(VerdictOf, ImpossibleParametersAreUnknownWhateverTheyExplain) {
   const StageRatios before = {4, 4, 4}, after = {1, 1, 1};
   EXPECT_EQ(VerdictOf(before, after, {4.9, true, true}, FoundEffect::kNone), "parameters");

@@ -24,6 +24,19 @@ TEST(HasSize, NeedsThreeOfItsOwnSd) {
   EXPECT_FALSE(HasSize(Gain(1.0, 0)));
 }
 
+// A size that does not show, beside sizes that the records tell: only what is told says whether the effect is there.
+TEST(HasSize, SizesThatDoNotShowSayNothingBesideOthers) {
+  EffectInstance e = MakeInstance(EffectNamed("amplifier-offset"), "B");
+  e.Set("offset", 0.07);
+  e.Set("dead_duty", 4e-5);
+  e.sd.assign(e.values.size(), 0.0);
+  EXPECT_TRUE(HasSize(e));
+  e.sd[0] = 1.2;  // of the offset
+  EXPECT_FALSE(HasSize(e));
+  e.Set("dead_duty", 0.05);  // as large as usual
+  EXPECT_TRUE(HasSize(e));
+}
+
 // A gain that differs between the two directions leaves a constant when one gain is fitted.
 TEST(IsDetailOf, TheSameSensorAndLessThanHalfOfAUsualSize) {
   EffectInstance offset = MakeInstance(EffectNamed("sensor-offset"), "A.y");

@@ -153,6 +153,28 @@ TEST(ResonanceGains, AreProductsOfTheShapeAndOneOverTheMass) {
   EXPECT_LT((even - Eigen::Matrix2d::Constant(1 / 25.0)).norm(), 1e-6);
 }
 
+// A foundation that is stiffer one way shows as two resonances: one start knows both.
+TEST(ResonanceStarts, TakeTwoEstimatesForOneResonanceThatDiffersByDirection) {
+  const RigParameters rig = RigOf("small_spindle");
+  ResonanceEstimate along_x, along_y;
+  along_x.frequency = 40;
+  along_y.frequency = 50;
+  for (ResonanceEstimate* e : {&along_x, &along_y}) {
+    e->damping = 0.03;
+    e->gains = Eigen::Matrix2d::Constant(1 / 20.0);
+  }
+  std::vector<double> ratios;
+  for (const EffectInstance& start :
+       ResonanceStarts(rig, MakeInstance(EffectNamed("base-mode"), "rig"), {along_x, along_y}))
+    ratios.push_back(start.Value("ratio") * (start.Value("frequency") > 45 ? -1 : 1));
+  std::ranges::sort(ratios);
+  ASSERT_EQ(ratios.size(), 4U);
+  EXPECT_NEAR(ratios[0], -1, 1e-12);
+  EXPECT_NEAR(ratios[1], -0.8, 1e-12);
+  EXPECT_NEAR(ratios[2], 1, 1e-12);
+  EXPECT_NEAR(ratios[3], 1.25, 1e-12);
+}
+
 /// A case of the rig's two multisine records, at rest and turning, measured on `truth`.
 Case MeasuredOn(const RigParameters& rig, const EffectInstance& truth) {
   std::vector<ExaminationRecord> records = Examination(rig, 5, {});

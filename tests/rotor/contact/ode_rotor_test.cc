@@ -167,7 +167,7 @@ TEST_P(MovingParts, GoTheWayOfTheModel) {
   model.axial_free = true;
   p.clearance = 1e-5;
   model.SetAxialStop(p);
-  if (GetParam() & kBase) model.SetBase(20, 20 * std::pow(2 * kPi * 60, 2), 300);
+  if (GetParam() & kBase) model.SetBase({20, {2.84e6, 4.55e6}, {300, 240}});  // 60 and 76 Hz
   model.AddLoad(-0.05, 20, 0, 15, 1e-3, 3e-3);
   model.SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 600.0}}), 4e-3);
 

@@ -45,5 +45,12 @@ TEST(SpeedProfile, AngleIsTheIntegralOfTheSpeed) {
   EXPECT_DOUBLE_EQ(late.Angle(3), 16);
 }
 
+TEST(SpeedProfile, LargestSpeedLiesWithinTheRun) {
+  const SpeedProfile up_and_down({{0.0, 0.0}, {1.0, -90.0}, {2.0, 0.0}, {3.0, 500.0}});
+  EXPECT_EQ(up_and_down.LargestSpeed(2), 90);
+  EXPECT_EQ(up_and_down.LargestSpeed(0.5), 45);
+  EXPECT_EQ(SpeedProfile().LargestSpeed(1), 0);
+}
+
 }  // namespace
 }  // namespace ambrig

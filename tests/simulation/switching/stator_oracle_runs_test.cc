@@ -55,7 +55,7 @@ RunResult RunWithout(const RigParameters& rig, const std::vector<std::string>& l
 std::string ClassOf(const RunResult& r) {
   std::string last;
   for (const RunEvent& e : r.events)
-    if (e.kind == "redistributed") last = e.fault_class;
+    if (e.kind.ends_with("redistributed")) last = e.fault_class;
   return last;
 }
 

@@ -1,0 +1,75 @@
+#include "discovery/data/gate_set_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/record/channels.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kFrozenSetPoint = 0.08;  // of the rows
+
+/// Whether another set-point of the bearing stands still for half of these rows too, or there is none: a force at its limit
+/// holds the set-points of an axis together, a logger one column.
+bool HeldTogether(const CaseRecord& r, const std::string& channel, const HeldStretch& s) {
+  const auto id = ParseChannel(channel);
+  bool alone = false;
+  for (const Channel& c : r.data.channels) {
+    const auto other = ParseChannel(c.name);
+    if (!other || c.name == channel || other->kind != id->kind || other->plane != id->plane)
+      continue;
+    std::size_t held = 0;
+    for (std::size_t k = s.first + 1; k < s.first + s.count && k < c.samples.size(); ++k)
+      held += c.samples[k] == c.samples[k - 1] ? 1 : 0;
+    if (2 * held >= s.count) return true;
+    alone = true;
+  }
+  return !alone;
+}
+
+}  // namespace
+
+std::size_t ClippedSetPointRows(const CaseModel& model, const CaseRecord& r, const GateColumn& c,
+                                const std::vector<double>& y, double extreme) {
+  constexpr double kNearLimit = 0.02;     // of the largest current
+  constexpr double kTogether = 0.3;       // of the rows
+  constexpr std::size_t kMoreOften = 10;  // than any other value
+  const double i_max = model.data().rig.amplifier.i_max;
+  if (std::abs(extreme) < kNearLimit * i_max || std::abs(extreme) > (1 - kNearLimit) * i_max)
+    return 0;
+  std::map<double, std::size_t> times;
+  for (const double v : y)
+    if (std::isfinite(v)) ++times[v];
+  const std::size_t rows = times[extreme];
+  for (const auto& [value, count] : times)
+    if (value != extreme && kMoreOften * count > rows) return 0;
+  const auto id = ParseChannel(c.name);
+  bool alone = false;
+  for (const Channel& other : r.data.channels) {
+    const auto of = ParseChannel(other.name);
+    if (!of || other.name == c.name || of->kind != id->kind || of->plane != id->plane) continue;
+    const auto [low, high] = std::minmax_element(other.samples.begin(), other.samples.end());
+    std::size_t at_limit = 0;
+    for (std::size_t k = 0; k < y.size(); ++k)
+      at_limit += y[k] == extreme && (other.samples[k] == *low || other.samples[k] == *high);
+    if (static_cast<double>(at_limit) > kTogether * static_cast<double>(rows)) return 0;
+    alone = true;
+  }
+  return alone ? rows : 0;
+}
+
+bool SetPointFroze(const CaseRecord& r, const GateColumn& c, const HeldStretch& s) {
+  constexpr double kShortFreeze = 0.01;  // of the rows
+  const auto rows = static_cast<double>(c.column.size()), count = static_cast<double>(s.count);
+  // a force at its limit holds single set-points for some rows
+  if (count >= kFrozenSetPoint * rows) return true;
+  const auto first = c.column.predicted.begin() + static_cast<std::ptrdiff_t>(s.first);
+  const auto [low, high] = std::minmax_element(first, first + static_cast<std::ptrdiff_t>(s.count));
+  return count >= kShortFreeze * rows && *high - *low > 2 * kBeyondFloors &&
+         !HeldTogether(r, c.name, s);
+}
+
+}  // namespace ambrig
