@@ -78,6 +78,16 @@ std::string ExtraComplaint(const CLI::App& app, const CLI::App& command) {
                      near.empty() ? "" : fmt::format(", did you mean {}?", near));
 }
 
+/// "--seed = 1e3, allowed: an integer" of CLI11's "Could not convert: --seed = 1e3"; others as they are.
+std::string WithAllowed(const CLI::App& command, std::string what) {
+  constexpr std::string_view kBegin = "Could not convert: ";
+  if (!what.starts_with(kBegin)) return what;
+  what.erase(0, kBegin.size());
+  const CLI::Option* option = command.get_option_no_throw(what.substr(0, what.find(' ')));
+  const bool whole = option != nullptr && option->get_type_name().find("INT") != std::string::npos;
+  return what + (whole ? ", allowed: an integer, e.g. 1000" : ", allowed: a number");
+}
+
 /// What is wrong with a command line: a command that does not exist is named before all else, then what stands there
 /// beyond a command's arguments, then what is missing.
 std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>& arguments,
@@ -86,7 +96,8 @@ std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>&
     const bool counted = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr ||
                          dynamic_cast<const CLI::RequiredError*>(&e) != nullptr;
     const std::string extra = counted ? ExtraComplaint(app, command) : "";
-    return fmt::format("{} (see ambrig {})", extra.empty() ? e.what() : extra, help);
+    return fmt::format("{} (see ambrig {})", extra.empty() ? WithAllowed(command, e.what()) : extra,
+                       help);
   };
   if (arguments.empty() || arguments[0].starts_with('-')) return told(app, "--help");
   std::string names;

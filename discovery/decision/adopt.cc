@@ -44,14 +44,6 @@ void RequireAdoptable(const Case& c, const EffectDescription& d, const std::stri
     RequireTarget(d, c.rig, target, fmt::format("--target = {}, allowed with {}:", target, d.id));
 }
 
-/// The comparison with the rig file, and both models made ready for fits. @throws InputError when no record has a channel
-/// to fit to.
-Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
-  Comparison before = PrepareModels(full, thin, nominal);
-  RequireCountedRows(full);
-  return before;
-}
-
 /// The errors of all rows, which a search sees a part of. @throws InputError when nothing was predicted: the rotor is lost
 LadderStep StepTo(const std::string& added, const CaseModel& full,
                   const std::optional<std::vector<double>>& predicted) {
@@ -85,7 +77,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   const std::string rig_text = ReadFile(c.rig_file);
   AdoptedRigText(rig_text, nominal, c.rig.effects);  // can be written: known before the long work
-  a.before = CompareMeasured(full, model, nominal);
+  a.before = PrepareModels(full, model, nominal);
   FitOptions fit;
   fit.effective_sample_size = a.before.effective_sample_size;
   progress(0.2, "rig parameters");

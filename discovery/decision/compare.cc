@@ -89,6 +89,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   Comparison c;
   if (progress) progress(0.05, "noise floor");
   const std::vector<std::string> lost = model.LimitToHeld(h);
+  RequireCountedRows(model);
   c.unpredictable = FindFloor(model, h).unpredictable;
   std::vector<double> stated;
   for (const Target& t : model.targets()) stated.push_back(t.floor);

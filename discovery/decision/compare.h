@@ -40,7 +40,7 @@ struct Comparison {
   std::vector<SampleSpan> unpredictable;    // left out of the model
 };
 
-/// @throws InputError where no row of any record counts and no error of the data says why.
+/// @throws InputError where no row of any record counts.
 Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks = true,
                    const std::function<void(double, const std::string&)>& progress = {});
 

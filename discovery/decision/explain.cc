@@ -31,6 +31,7 @@ Explanation Explainer::Run() {
   Progress(0.0, "noise floor");
   const Hypothesis nominal = Hypothesis::Base(rig_);
   const std::vector<std::string> lost = full_.LimitToHeld(nominal);
+  RequireCountedRows(full_);
   model_.LimitAs(full_);
   const std::vector<std::string> alone = PrepareNoise(nominal);
   const FitResult as_filed = At(nominal);

@@ -27,7 +27,7 @@ constexpr double kUniform = 1.35;
 constexpr double kUniformAgrees = 1.1;
 constexpr std::size_t kLeastEstimates = 3;
 constexpr double kFilteredAgrees = 1.25;  // stated noise over the least error of the records
-constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none is stated
+constexpr double kTrial = 1e-3;           // of the ADC's range: current noise where none is stated
 // Of a code of the ADC, and at most of the trial's noise: with less the errors of its codes are no noise, and may be larger
 // than they are with noise.
 constexpr double kDither = 0.5, kMostDither = 0.5;
@@ -245,6 +245,8 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
   const ByChannel direct = WhiteParts(model, model.measured(), *clean, IsDirect);
   const auto quietest = QuietestErrors(model, model.measured(), *clean);
   for (const auto& [channel, parts] : direct) {
+    const auto least = quietest.find(channel);
+    if (least == quietest.end()) continue;  // no row of it counts
     ChannelNoise& c = noise.channels[channel];
     const bool uniform = AreAlike(parts);
     // a model's error only adds to it
@@ -252,7 +254,7 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
     const double factor = uniform ? kUniformAgrees : kNoiseAgrees;
     // Filtered noise has less in its fastest differences than as a whole: it is as large as stated where no record
     // has a smaller error.
-    const bool filtered = c.stated < kFilteredAgrees * quietest.at(channel);
+    const bool filtered = c.stated < kFilteredAgrees * least->second;
     Choose(c, factor, filtered ? kInfinity : factor);
   }
   EstimateCurrents(model, h, *clean, noise);

@@ -32,6 +32,7 @@ const BadCommand kCommands[] = {
     {"run s.toml --rate 13000", "--rate = 13000 Hz, allowed: the switching frequency"},
     {"run s.toml --fidelity exact", "switching"},
     {"run s.toml --json /no/such/x.json", "cannot write /no/such/x.json"},
+    {"hide sensor-gain --rig rig.toml -o h --seed 1e3", "--seed = 1e3, allowed: an integer"},
     {"run s.toml --json ''", "--json: a file without a name"},
     {"run s.toml --html .", "cannot write .: Is a directory"},
     {"run s.toml --out s.toml", "cannot write s.toml"},

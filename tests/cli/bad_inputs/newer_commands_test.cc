@@ -55,7 +55,7 @@ const BadUse kUses[] = {
     {"validate off_node.validation.toml", "off_node.validation.toml:"},
     // static tables
     {"compare static_gap.toml", "row 2: A at [0.04, 0] m, allowed: inside the gap of 0.0004 m"},
-    {"compare late_clock.toml", "late_clock.toml:6: nuisance.time_shift = 1000000000 s, allowed 0"},
+    {"compare late_clock.toml", "late_clock.toml:3: nuisance.time_shift = 1000000000 s, allowed 0"},
     {"compare static_sd.toml", "static_sd.toml:6: record[1].sd.A.fx = 0 N, allowed 1e-15 to"},
 };
 
@@ -78,7 +78,9 @@ class BadUses : public WorkFolder, public ::testing::WithParamInterface<BadUse> 
     Write("static_gap.toml", table +
                                  "[record.channels]\n\"A.x\" = { column = \"x\", gain = 1000.0 }\n"
                                  "\"A.fx\" = \"F\"\n");
-    Write("late_clock.toml", table + "[nuisance]\ntime_shift = 1e9\n");
+    Write("late_clock.toml",
+          "rig = \"rig.toml\"\n[nuisance]\ntime_shift = 1e9\n[[record]]\nscenario = "
+          "\"s.toml\"\ndata = \"a.csv\"\n");
     Write("static_sd.toml", table +
                                 "[record.sd]\n\"A.fx\" = 0.0\n[record.channels]\n\"A.x\" = \"x\"\n"
                                 "\"A.fx\" = \"F\"\n");
