@@ -54,8 +54,10 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
                                      const Hypothesis& h, std::size_t r) {
   std::vector<DataFault> out;
   if (!OverTime(model.data().records[r])) {
-    (model.data().records[r].kind == RecordKind::kFrf ? CheckResponses : CheckTable)(
-        model, predicted, h, r, out);
+    if (model.data().records[r].kind == RecordKind::kFrf)
+      CheckResponses(model, predicted, h, r, out);
+    else
+      CheckTable(model, predicted, h, r, out);
     return out;
   }
   std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);

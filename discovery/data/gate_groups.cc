@@ -56,7 +56,9 @@ double ErrorOfMovement(const std::vector<const GateColumn*>& columns) {
 bool IsLate(const std::vector<const GateColumn*>& own, const std::vector<const GateColumn*>& others,
             const FoundShift& s, double most_left, double rate) {
   constexpr double kLeast = 2e-3;  // [s]
-  if (std::abs(s.late) < kLeast || s.left > most_left || !s.all_rows) return false;
+  const bool forces = IsOfKind(own[0]->name, ChannelKind::kLoadCell);
+  if (std::abs(s.late) < (forces ? kLeastForce : kLeast) || s.left > most_left || !s.all_rows)
+    return false;
   const bool one_on_time =
       std::ranges::any_of(own, [&](const GateColumn* c) { return AreOnTime({c}, s.late, rate); });
   return !one_on_time && AreOnTime(others, s.late, rate) && !RepeatsItself(own);

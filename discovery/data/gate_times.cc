@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "discovery/data/gate_columns.h"
 #include "discovery/data/gate_shifts.h"
 
@@ -71,7 +72,8 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
         c.match.error < 0.1 * c.match.predicted_move)
       continue;
     const FoundShift s = ShiftOf({&c}, r.data.rate);
-    if (s.all_rows ? std::abs(s.late) >= kLeastColumn && s.left < 0.3 : LosesRows(columns, c, s))
+    const double least = IsOfKind(c.name, ChannelKind::kLoadCell) ? kLeastForce : kLeastColumn;
+    if (s.all_rows ? std::abs(s.late) >= least && s.left < 0.3 : LosesRows(columns, c, s))
       late.emplace_back(&c, s);
   }
   // a rig that is late is so in all its columns; a logger's own delay is in one or two, or in all of a kind

@@ -33,7 +33,7 @@ Explanation Explainer::Run() {
   const std::vector<std::string> lost = full_.LimitToHeld(nominal);
   RequireCountedRows(full_);
   model_.LimitAs(full_);
-  PrepareNoise(nominal);
+  const std::vector<std::string> alone = PrepareNoise(nominal);
   const FitResult as_filed = At(nominal);
   out_.nominal_ratio_validate = UnseenRatio(model_, as_filed.residual);
   out_.ladder.push_back({"", as_filed.ratio_fit, out_.nominal_ratio_validate});
@@ -42,6 +42,7 @@ Explanation Explainer::Run() {
   else
     Stop(as_filed);
   for (const std::string& line : lost) out_.warnings.push_back(line);
+  for (const std::string& line : alone) out_.warnings.push_back(line);
   for (const std::string& line : NoiseRemarks(out_.noise)) out_.warnings.push_back(line);
   for (const std::string& line : BranchRemarks(model_, branches_)) out_.warnings.push_back(line);
   out_.runs = full_.runs + model_.runs;
@@ -51,7 +52,7 @@ Explanation Explainer::Run() {
 }
 
 /// Stated noise, a look at the data with it, then the noise that the records show.
-void Explainer::PrepareNoise(const Hypothesis& nominal) {
+std::vector<std::string> Explainer::PrepareNoise(const Hypothesis& nominal) {
   model_.LeaveOut(FindFloor(full_, nominal).unpredictable);
   std::vector<double> stated;
   for (const Target& t : full_.targets()) stated.push_back(t.floor);
@@ -65,11 +66,11 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   const std::vector<LonelyRow> lonely = LonelyRowsOf(full_, floor.clean);
   full_.LeaveOut(SpansOf(lonely));
   model_.LeaveOut(SpansOf(lonely));
-  for (const std::string& line : LonelyRemarks(full_.data(), lonely)) out_.warnings.push_back(line);
   if (out_.data.empty()) RequireCountedRows(full_);
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);
+  return LonelyRemarks(full_.data(), lonely);
 }
 
 /// The nuisances that the case declares, or those that usually are.

@@ -25,7 +25,8 @@ class Explainer {
 
  private:
   /// Stated noise, a look at the data with it, then the noise that the records show.
-  void PrepareNoise(const Hypothesis& nominal);
+  /// Returns what it left out, one line each.
+  std::vector<std::string> PrepareNoise(const Hypothesis& nominal);
   /// The nuisances that the case declares, or those that usually are.
   void UseNuisances(const Hypothesis& h, const std::vector<double>& predicted, bool declared_only);
   /// These nuisances of the records beside the errors of the coils.

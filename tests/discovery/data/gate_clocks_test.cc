@@ -86,6 +86,18 @@ TEST(GateClocks, TheColumnsOfOneConverter) {
   }
 }
 
+// Eddy currents delay both forces of a bearing by some ms against its currents.
+TEST(GateClocks, ForcesThatAreLateTogetherAreTheIrons) {
+  for (const std::ptrdiff_t rows : {23, 31}) {  // 1.8 and 2.5 ms
+    Case c = Measured();
+    CaseRecord& r = c.records[RecordNamed(c, testing::kClampedRecord)];
+    Delay(r, rows,
+          [](const ChannelId& id) { return id.plane == "B" && id.kind == ChannelKind::kLoadCell; });
+    const auto faults = FaultsOf(c);
+    for (const DataFault& f : faults) EXPECT_NE(f.fault, "lag") << FaultText(f);
+  }
+}
+
 // A rig that answers late does so in all its columns: that is an effect.
 TEST(GateClocks, ADelayInTheLoopIsNoClock) {
   EffectInstance e = MakeInstance(EffectNamed("loop-delay"), "rig");
