@@ -8,7 +8,8 @@
 namespace ambrig {
 
 inline constexpr double kLeastColumn = 1e-3;  // [s], of a single column: electronics delay too
-inline constexpr double kLeastForce = 4e-3;   // [s], of load cells: eddy currents delay forces by some ms
+inline constexpr double kLeastForce =
+    4e-3;  // [s], of load cells: eddy currents delay forces by some ms
 
 struct FoundShift {
   double late = 0, from = 0;  // [s], [s] after the first row

@@ -22,7 +22,8 @@ class WorkFolder : public CliFolder {
     Write("e.toml", ScenarioText("[expect]\ndrop = false\n"));
     Write("c.toml", "rig = \"rig.toml\"\nduration = 0.01\n");
     std::string rows = "t,A.x\n";
-    for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";
+    for (int k = 0; k < 100; ++k)
+      rows += std::to_string(k / 12500.0) + (k % 2 ? ",1e-6\n" : ",2e-6\n");
     Write("a.csv", rows);
     Write("b.csv", rows);
     Write("case.toml",

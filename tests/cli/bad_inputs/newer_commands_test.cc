@@ -132,6 +132,10 @@ TEST_F(Outputs, FilesOfAHiddenCaseAreMarked) {
 
 // Readings that never move are left out; where nothing else was measured there is no answer, least of all agreement.
 TEST_F(Outputs, NothingMeasuredIsNoAgreement) {
+  std::string rows = "t,A.x\n";
+  for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";
+  Write("a.csv", rows);
+  Write("b.csv", rows);
   const std::string said = "case.toml: every channel of every record was left out";
   for (const char* call : {"compare case.toml --no-blocks", "explain case.toml --candidates 1"}) {
     const Outcome o = Ambrig(call);  // what was left out is printed before
