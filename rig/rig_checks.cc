@@ -17,13 +17,7 @@ namespace {
 
 /// "rig.toml:31: bearings.A.gap", the line of the innermost table that the file has.
 std::string WhereOf(const TomlTable& root, const std::string& path) {
-  TomlTable at = root;
-  std::string rest = path;
-  for (std::size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-    if (!at.IsTable(rest.substr(0, dot))) break;
-    at = *at.Table(rest.substr(0, dot));
-    rest = rest.substr(dot + 1);
-  }
+  const auto [at, rest] = InnermostOf(root, path);
   return rest.find('.') == std::string::npos && at.Has(rest) ? at.Where(rest)
                                                              : at.Where() + ": " + path;
 }

@@ -62,10 +62,8 @@ PidParameters ReadPid(const TomlTable& t) {
 
 /// Whether a table gives a value itself: "gap", or "sensor.z" of its table [sensor].
 bool Gives(const TomlTable& t, const std::string& key) {
-  const std::size_t dot = key.find('.');
-  if (dot == std::string::npos) return t.Has(key);
-  const std::string table = key.substr(0, dot);
-  return t.IsTable(table) && Gives(*t.Table(table), key.substr(dot + 1));
+  const auto [table, last] = InnermostOf(t, key);
+  return table.Has(last);
 }
 
 BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const RigParameters& rig,
@@ -187,16 +185,17 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
     radial += b.kind->two_axes;
     thrust += b.kind->axial;
     opposed += b.kind->alone;
-    for (const auto& other : rig.bearings)
-      if (&b != &other && b.kind->two_axes && other.kind->two_axes && b.z == other.z)
+    for (const auto& other : rig.bearings) {
+      if (&b == &other || !b.kind->two_axes || !other.kind->two_axes) continue;
+      if (b.z == other.z)
         all->Table(b.name)->Fail(
             "z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
-      else if (&b != &other && b.kind->two_axes && other.kind->two_axes &&
-               b.sensor.z == other.sensor.z)
+      if (b.sensor.z == other.sensor.z)
         all->Table(b.name)->Fail(
             "sensor", fmt::format("z = {} m, allowed: another plane than the sensor of bearing {}, "
                                   "or the rotor's tilt is not seen",
                                   b.sensor.z, other.name));
+    }
   }
   if (opposed == 0 && radial < 2) all->Fail("", "a rigid rotor needs at least two radial bearings");
   if (opposed > 0 && (radial + thrust > 0 || opposed > 1 || rig.rotor_kind != "point"))

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/coil_name.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
@@ -48,13 +48,10 @@ void ReadPosition(const TomlTable& position, const std::string& key, const RigPa
 /// A coil that flows `current` at t = 0 whatever is commanded then.
 void ReadStartCurrent(const TomlTable& currents, const std::string& key, const RigParameters& rig,
                       Scenario& s) {
-  const std::size_t dot = key.find(".coil");
-  const BearingParameters* b = rig.Find(key.substr(0, dot));
-  bool known = false;
-  for (int j = 0; b && j < b->coils(); ++j) known = known || key == CoilName(b->name, j);
-  if (!known)
-    currents.Fail(key, "is no coil, allowed: those of the rig, \"" +
-                           CoilName(rig.bearings.front().name, 0) + "\" for example");
+  const std::vector<std::string> coils = TargetsOfEffects(rig).coils;
+  if (std::ranges::find(coils, key) == coils.end())
+    currents.Fail(key,
+                  "is no coil, allowed: those of the rig, \"" + coils.front() + "\" for example");
   const double i = currents.Number(key), most = rig.amplifier.adc_range,
                least = rig.amplifier.quadrants < 3 ? 0 : -most;
   if (i < least || i > most)
@@ -72,16 +69,14 @@ void ReadStart(const TomlTable& root, const RigParameters& rig, Scenario& s) {
             : state == "resting" ? StartState::kResting
                                  : StartState::kClamped;
   if (s.start == StartState::kResting) CheckResting(*t, rig);
-  if (const auto p = t->Table("position")) {
-    if (s.start != StartState::kClamped)
-      t->Fail("position", "is only allowed with state = \"clamped\"");
-    for (const auto& key : p->Keys()) ReadPosition(*p, key, rig, s);
-  }
-  if (const auto c = t->Table("current")) {
-    if (s.start != StartState::kClamped)
-      t->Fail("current", "is only allowed with state = \"clamped\"");
-    for (const auto& key : c->Keys()) ReadStartCurrent(*c, key, rig, s);
-  }
+  const auto of_clamped = [&](const char* key, const auto& read) {
+    const auto values = t->Table(key);
+    if (!values) return;
+    if (s.start != StartState::kClamped) t->Fail(key, "is only allowed with state = \"clamped\"");
+    for (const auto& name : values->Keys()) read(*values, name, rig, s);
+  };
+  of_clamped("position", ReadPosition);
+  of_clamped("current", ReadStartCurrent);
   t->RejectUnknownKeys();
 }
 

@@ -26,16 +26,12 @@ void CheckControlled(const RigParameters& rig, const Scenario& scenario) {
       scenario.file.empty() ? scenario.name : scenario.file, rig.file));
 }
 
+constexpr std::pair<Fidelity, const char*> kFidelities[] = {{Fidelity::kSwitching, "switching"},
+                                                            {Fidelity::kReference, "reference"},
+                                                            {Fidelity::kAveraged, "averaged"}};
+
 const char* NameOf(Fidelity fidelity) {
-  switch (fidelity) {
-    case Fidelity::kSwitching:
-      return "switching";
-    case Fidelity::kReference:
-      return "reference";
-    case Fidelity::kAveraged:
-      return "averaged";
-  }
-  return "";
+  return std::ranges::find(kFidelities, fidelity, [](const auto& f) { return f.first; })->second;
 }
 
 /// As WhyUnwatched, also for fidelities that have no supervisor.
@@ -116,10 +112,12 @@ RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario,
 }  // namespace
 
 Fidelity FidelityByName(const std::string& name) {
-  if (name == "switching") return Fidelity::kSwitching;
-  if (name == "reference") return Fidelity::kReference;
-  if (name == "averaged") return Fidelity::kAveraged;
-  throw InputError(fmt::format("--fidelity = {}, allowed: switching, reference, averaged", name));
+  std::string all;
+  for (const auto& [fidelity, its_name] : kFidelities) {
+    if (name == its_name) return fidelity;
+    all += fmt::format("{}{}", all.empty() ? "" : ", ", its_name);
+  }
+  throw InputError(fmt::format("--fidelity = {}, allowed: {}", name, all));
 }
 
 RunResult Simulate(const RigParameters& rig, const Scenario& scenario,

@@ -106,11 +106,13 @@ RecordTolerances BaselineTolerances(const BaselineOptions& o) {
 }
 
 void RequireTolerancesFit(const BaselineOptions& o) {
+  const RecordTolerances tolerances = BaselineTolerances(o);
+  if (tolerances.patterns.empty()) return;
   const std::set<std::string> stored = StoredChannels(o.folder);
   if (stored.empty()) return;
   std::string all;
   for (const std::string& name : stored) all += (all.empty() ? "" : ", ") + name;
-  for (const auto& [pattern, tolerance] : BaselineTolerances(o).patterns)
+  for (const auto& [pattern, tolerance] : tolerances.patterns)
     if (std::ranges::none_of(stored,
                              [&](const std::string& name) { return FitsOneOf({pattern}, name); }))
       throw InputError(fmt::format(

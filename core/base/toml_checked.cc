@@ -18,6 +18,18 @@ void CheckRange(const TomlTable& t, std::string_view key, double value, const Ra
 
 }  // namespace
 
+std::pair<TomlTable, std::string> InnermostOf(const TomlTable& root, const std::string& path) {
+  std::pair<TomlTable, std::string> out(root, path);
+  auto& [table, rest] = out;
+  for (std::size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
+    const std::string inner = rest.substr(0, dot);
+    if (!table.IsTable(inner)) break;
+    table = *table.Table(inner);
+    rest = rest.substr(dot + 1);
+  }
+  return out;
+}
+
 double Within(const TomlTable& t, std::string_view key, double fallback, const Range& range) {
   const double value = t.Number(key, fallback);
   if (!t.Has(key) && !std::isnan(fallback)) return value;

@@ -2,6 +2,7 @@
 /// Numbers of a TOML table within their physical range, and files that a file names.
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/toml.h"
@@ -27,6 +28,10 @@ std::vector<double> AllWithin(const TomlTable& t, std::string_view key,
 /// file (...)" when it does not exist.
 std::string ExistingFile(const TomlTable& t, std::string_view key,
                          const std::string& fallback = "");
+
+/// The innermost table that a file has of a path such as "bearings.A.sensor.z", and the rest of the path there: the last
+/// key where the file has all of its tables.
+std::pair<TomlTable, std::string> InnermostOf(const TomlTable& root, const std::string& path);
 
 /// A one-sigma spread [unit] that its parameter can have: at most the width of the range, and at
 /// most the value itself where that must be positive. @throws InputError "where.sd = ..., allowed".

@@ -1,7 +1,5 @@
 #include "core/record/time_gaps.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

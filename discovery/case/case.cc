@@ -192,13 +192,14 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
   if (r.data.channels.empty())
     t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
   CheckAgainstScenario(r, t);
+  const std::size_t empty = EmptyRows(r);
   for (const auto& [from, to] : r.gaps)
     c.notes.push_back(
         fmt::format("{}: no rows between {:.6g} s and {:.6g} s", r.data_file, from, to));
   for (const Channel& ch : r.data.channels) {
     r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
     const ChannelQuality& q = r.quality.back();
-    if (q.missing == EmptyRows(r) && q.clipped == 0 && q.use) continue;  // told of the record
+    if (q.missing == empty && q.clipped == 0 && q.use) continue;  // told of the record
     if (!q.verdict.starts_with("good"))
       c.notes.push_back(fmt::format("{}: {}: {}", r.data_file, ch.name, q.verdict));
   }

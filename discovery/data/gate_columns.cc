@@ -97,6 +97,13 @@ DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const st
   return f;
 }
 
+DataFault FactorFault(const CaseRecord& r, const std::string& channel, double factor, double left) {
+  DataFault f = FaultLeaving(r, channel, factor < 0 ? "sign" : "unit", left);
+  f.factor = factor;
+  f.mend = UnitLine(r, channel, factor);
+  return f;
+}
+
 std::string LeaveOutLine(const CaseRecord& r, std::size_t first, std::size_t count) {
   return fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.TimeAt(first) - 0.5 / r.data.rate,
                      r.data.TimeAt(first + count) + 0.5 / r.data.rate);

@@ -62,6 +62,9 @@ void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFau
 /// The unit and the sign of the measured angle of a prescribed speed.
 void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 
+/// A column that is `factor` times what it should be, a wrong sign where that is negative, with the line that mends it.
+DataFault FactorFault(const CaseRecord& r, const std::string& channel, double factor, double left);
+
 /// Tells a fault "scenario", in place of those without a scenario that fits which were told of the record before.
 void TellScenario(DataFault fault, std::vector<DataFault>& out);
 

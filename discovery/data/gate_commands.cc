@@ -86,10 +86,7 @@ void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFau
     const double largest = QuantileOf(sizes, 1);
     for (const double factor : {1e3, 1e6}) {
       if (largest / factor > limit) continue;
-      DataFault f = FaultLeaving(r, c.name, "unit", limit / largest);
-      f.factor = factor;
-      f.mend = UnitLine(r, c.name, factor);
-      out.push_back(f);
+      out.push_back(FactorFault(r, c.name, factor, limit / largest));
       break;
     }
   }

@@ -1,5 +1,5 @@
 /// Blocks of rows that a record lost while its clock went on: its times tell where.
-#include <fmt/format.h>
+#include <cmath>
 
 #include "discovery/data/gate_columns.h"
 
@@ -20,8 +20,9 @@ void CheckGaps(const CaseModel& model, std::size_t record, std::vector<DataFault
     f.record = r.data_file;
     f.fault = "lost";
     f.seconds = lost / r.data.rate;
-    f.mend = fmt::format("leave_out = [[{:.6g}, {:.6g}]]", from + 0.5 / r.data.rate,
-                         to - 0.5 / r.data.rate);
+    const auto first = std::lround((from - r.data.start) * r.data.rate) + 1;
+    f.mend = LeaveOutLine(r, static_cast<std::size_t>(first),
+                          static_cast<std::size_t>(std::lround(lost) - 1));
     f.probability = 0.95;
     out.push_back(f);
   }

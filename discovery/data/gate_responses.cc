@@ -27,6 +27,21 @@ bool Counts(const CaseModel& model, const std::vector<double>& predicted, const 
          std::isfinite(predicted[re.first + k]) && std::isfinite(predicted[im.first + k]);
 }
 
+/// The sd of point k over its magnitude; 0: the point cannot count.
+double RelativeSd(const RigResponse& r, std::size_t k) {
+  const double size = std::abs(r.values[k]);
+  return r.sd[k] > 0 && size > 0 ? std::max(kLeastRelativeSd, r.sd[k] / size) : 0;
+}
+
+/// Point k of `response`, at its frequency [Hz], beside what is expected of it over its sd.
+void AddPoint(const RigResponse& response, std::size_t k, double frequency, Complex expected,
+              GateResponse& out) {
+  out.frequency.push_back(frequency);
+  out.measured.push_back(response.values[k]);
+  out.expected.push_back(response.sd[k] * expected);
+  out.weight.push_back(std::pow(RelativeSd(response, k), -2));
+}
+
 /// From its two targets, the real part's and the imaginary part's.
 GateResponse ResponseOf(const CaseModel& model, const std::vector<double>& predicted,
                         const Target& re, const Target& im) {
@@ -34,25 +49,19 @@ GateResponse ResponseOf(const CaseModel& model, const std::vector<double>& predi
   const RigResponse& response = record.responses.responses[re.channel / 2];
   GateResponse out;
   out.index = re.channel / 2;
-  double square = 0, noise = 0, weights = 0;
+  double square = 0, weights = 0;
   for (std::size_t k = 0; k < re.count; ++k) {
-    if (!Counts(model, predicted, re, im, k)) continue;
+    if (!Counts(model, predicted, re, im, k) || RelativeSd(response, k) == 0) continue;
     const Complex p(predicted[re.first + k], predicted[im.first + k]);  // over its sd
-    const double sd = response.sd[k], size = std::abs(response.values[k]);
-    if (!(sd > 0) || !(size > 0)) continue;
-    const double relative = std::max(kLeastRelativeSd, sd / size);
-    out.frequency.push_back(record.responses.frequency[k]);
-    out.measured.push_back(response.values[k]);
-    out.expected.push_back(sd * p);
-    out.weight.push_back(1 / (relative * relative));
-    square += std::norm(response.values[k] / sd - p) / 2;
-    noise += out.weight.back() * relative * relative;
+    AddPoint(response, k, record.responses.frequency[k], p, out);
+    square += std::norm(response.values[k] / response.sd[k] - p) / 2;
     weights += out.weight.back();
   }
   const auto points = static_cast<double>(out.frequency.size());
   if (points == 0) return out;
   out.floors = response.sd_known ? std::sqrt(square / points) / re.floor : kInfinity;
-  out.noise = response.sd_known ? re.floor * std::sqrt(noise / weights) : 0;
+  // a weight is one over the squared noise of its point
+  out.noise = response.sd_known ? re.floor * std::sqrt(points / weights) : 0;
   return out;
 }
 
@@ -101,14 +110,10 @@ std::vector<GateResponse> ExpectedOver(const CaseModel& model, const Hypothesis&
     GateResponse r;
     r.index = n;
     for (std::size_t k = 0; k < response.sd.size(); ++k) {
-      const double sd = response.sd[k], size = std::abs(response.values[k]);
-      if (!shifted.quality[2 * n].ok[k] || !shifted.quality[2 * n + 1].ok[k] || !(sd > 0) ||
-          !(size > 0))
-        continue;
-      r.frequency.push_back(shifted.responses.frequency[k]);
-      r.measured.push_back(response.values[k]);
-      r.expected.push_back(sd * Complex(columns[2 * n][k], columns[2 * n + 1][k]));
-      r.weight.push_back(std::pow(std::max(kLeastRelativeSd, sd / size), -2));
+      if (shifted.quality[2 * n].ok[k] && shifted.quality[2 * n + 1].ok[k] &&
+          RelativeSd(response, k) > 0)
+        AddPoint(response, k, shifted.responses.frequency[k],
+                 Complex(columns[2 * n][k], columns[2 * n + 1][k]), r);
     }
     out.push_back(std::move(r));
   }

@@ -12,22 +12,28 @@ namespace {
 
 constexpr double kFrozenSetPoint = 0.08;  // of the rows
 
+/// The bearing's other set-points.
+std::vector<const Channel*> OtherSetPoints(const CaseRecord& r, const std::string& channel) {
+  const auto id = ParseChannel(channel);
+  std::vector<const Channel*> out;
+  for (const Channel& c : r.data.channels) {
+    const auto other = ParseChannel(c.name);
+    if (other && c.name != channel && other->kind == id->kind && other->plane == id->plane)
+      out.push_back(&c);
+  }
+  return out;
+}
+
 /// Whether another set-point of the bearing stands still for half of these rows too, or there is none: a force at its limit
 /// holds the set-points of an axis together, a logger one column.
 bool HeldTogether(const CaseRecord& r, const std::string& channel, const HeldStretch& s) {
-  const auto id = ParseChannel(channel);
-  bool alone = false;
-  for (const Channel& c : r.data.channels) {
-    const auto other = ParseChannel(c.name);
-    if (!other || c.name == channel || other->kind != id->kind || other->plane != id->plane)
-      continue;
-    std::size_t held = 0;
-    for (std::size_t k = s.first + 1; k < s.first + s.count && k < c.samples.size(); ++k)
-      held += c.samples[k] == c.samples[k - 1] ? 1 : 0;
-    if (2 * held >= s.count) return true;
-    alone = true;
-  }
-  return !alone;
+  const std::vector<const Channel*> others = OtherSetPoints(r, channel);
+  return others.empty() || std::ranges::any_of(others, [&](const Channel* c) {
+           std::size_t held = 0;
+           for (std::size_t k = s.first + 1; k < s.first + s.count && k < c->samples.size(); ++k)
+             held += c->samples[k] == c->samples[k - 1] ? 1 : 0;
+           return 2 * held >= s.count;
+         });
 }
 
 }  // namespace
@@ -46,19 +52,16 @@ std::size_t ClippedSetPointRows(const CaseModel& model, const CaseRecord& r, con
   const std::size_t rows = times[extreme];
   for (const auto& [value, count] : times)
     if (value != extreme && kMoreOften * count > rows) return 0;
-  const auto id = ParseChannel(c.name);
-  bool alone = false;
-  for (const Channel& other : r.data.channels) {
-    const auto of = ParseChannel(other.name);
-    if (!of || other.name == c.name || of->kind != id->kind || of->plane != id->plane) continue;
-    const auto [low, high] = std::minmax_element(other.samples.begin(), other.samples.end());
+  const std::vector<const Channel*> others = OtherSetPoints(r, c.name);
+  for (const Channel* other : others) {
+    const std::vector<double>& of = other->samples;
+    const auto [low, high] = std::minmax_element(of.begin(), of.end());
     std::size_t at_limit = 0;
     for (std::size_t k = 0; k < y.size(); ++k)
-      at_limit += y[k] == extreme && (other.samples[k] == *low || other.samples[k] == *high);
+      at_limit += y[k] == extreme && (of[k] == *low || of[k] == *high);
     if (static_cast<double>(at_limit) > kTogether * static_cast<double>(rows)) return 0;
-    alone = true;
   }
-  return alone ? rows : 0;
+  return others.empty() ? 0 : rows;
 }
 
 bool SetPointFroze(const CaseRecord& r, const GateColumn& c, const HeldStretch& s) {

@@ -120,18 +120,16 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
   const double most = LargestOf(c.predicted);
   const double before = ErrorAgainst(c.measured, c.predicted, c.ok);
   if (before < 5 + 0.05 * most) return;
-  DataFault f;
-  f.record = r.data_file;
-  f.probability = 0.98;
+  constexpr double kSpeedIsKnown = 0.98;  // probability: a profile is prescribed
   if (const auto found = FactorOfSpeed(c, before)) {
-    f.channel = "omega";
-    f.fault = found->factor < 0 ? "sign" : "unit";
-    f.factor = found->factor;
-    f.mend = UnitLine(r, "omega", found->factor);
-    out.push_back(f);
+    out.push_back(FactorFault(r, "omega", found->factor, found->left));
+    out.back().probability = kSpeedIsKnown;
     return;
   }
+  DataFault f;
+  f.record = r.data_file;
   f.fault = "scenario";
+  f.probability = kSpeedIsKnown;
   TellScenario(f, out);
 }
 
@@ -187,10 +185,7 @@ void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFaul
   if (m.predicted_move < kLeastAngle || m.error < kGrossAngle * m.predicted_move) return;
   const auto found = FactorOfSpeed(c, m.error);
   if (!found) return;
-  DataFault f = FaultLeaving(r, "theta", found->factor < 0 ? "sign" : "unit", found->left);
-  f.factor = found->factor;
-  f.mend = UnitLine(r, "theta", found->factor);
-  out.push_back(f);
+  out.push_back(FactorFault(r, "theta", found->factor, found->left));
 }
 
 }  // namespace ambrig

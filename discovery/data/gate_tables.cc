@@ -149,14 +149,6 @@ InputMistake InputsOf(const CaseModel& model, const Hypothesis& h, std::size_t r
   return best;
 }
 
-void TellFactorOf(const CaseRecord& r, const std::string& column, const TableFactor& found,
-                  std::vector<DataFault>& out) {
-  DataFault f = FaultLeaving(r, column, found.factor < 0 ? "sign" : "unit", found.left);
-  f.factor = found.factor;
-  f.mend = UnitLine(r, column, found.factor);
-  out.push_back(f);
-}
-
 }  // namespace
 
 void CheckTable(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
@@ -184,11 +176,12 @@ void CheckTable(const CaseModel& model, const std::vector<double>& predicted, co
     // currents in mA make forces a millionth: the smaller factor is the mistake
     const bool smaller = std::abs(std::log(std::abs(in.found.factor))) < largest;
     if (!in.inputs.empty() && in.found.left < (smaller ? kAsGood : kClearlyBetter) * each) {
-      for (const std::string& input : in.inputs) TellFactorOf(r, input, in.found, out);
+      for (const std::string& input : in.inputs)
+        out.push_back(FactorFault(r, input, in.found.factor, in.found.left));
       return;
     }
   }
-  for (const auto& [column, factor] : found) TellFactorOf(r, column, factor, out);
+  for (const auto& [column, f] : found) out.push_back(FactorFault(r, column, f.factor, f.left));
 }
 
 }  // namespace ambrig

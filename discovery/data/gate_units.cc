@@ -197,10 +197,7 @@ std::optional<FoundFactor> BestFactor(const Suspect& s) {
 
 void TellFactor(const CaseRecord& r, GateColumn& c, const FoundFactor& found,
                 std::vector<DataFault>& out) {
-  DataFault f = FaultLeaving(r, c.name, found.factor < 0 ? "sign" : "unit", found.left);
-  f.factor = found.factor;
-  f.mend = UnitLine(r, c.name, found.factor);
-  out.push_back(f);
+  out.push_back(FactorFault(r, c.name, found.factor, found.left));
   c.explained = true;
 }
 

@@ -186,7 +186,8 @@ void TellClipped(const CaseRecord& r, GateColumn& c, std::size_t rows,
   c.explained = true;
 }
 
-/// Limits, and stretches that stand still: those from the first row on, or all others.
+/// Limits and stretches that stand still; with `from_first_row` the stretches from there on alone, which are not among the
+/// former.
 void CheckStretches(const CaseModel& model, const CaseRecord& r, bool from_first_row,
                     std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
   for (GateColumn& c : columns) {
@@ -201,7 +202,8 @@ void CheckStretches(const CaseModel& model, const CaseRecord& r, bool from_first
     // between the extremes.
     const std::size_t hold = RegularHold(y);
     if (UsualHold(OffTheExtremes(y, *low, *high)) > kCoarse * hold) continue;
-    const std::size_t rows = RowsAtLimits(model, r, c, y, hold);
+    // limits have been looked at where stretches from the first row on are
+    const std::size_t rows = from_first_row ? 0 : RowsAtLimits(model, r, c, y, hold);
     if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
       TellClipped(r, c, rows, out);
       continue;

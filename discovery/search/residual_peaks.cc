@@ -161,14 +161,9 @@ std::vector<double> TonesLookedAt(const CaseModel& model, const std::vector<doub
   std::vector<double> f;
   for (double g = kGridBegins; g < kGridEnds; g += kStep) f.push_back(g);
   std::vector<std::size_t> readings;
-  double longest = 0;
-  for (std::size_t n = 0; n < model.targets().size(); ++n) {
-    const Target& t = model.targets()[n];
-    if (!IsReading(model, t)) continue;
-    readings.push_back(n);
-    longest =
-        std::max(longest, static_cast<double>(t.count) / model.data().records[t.record].data.rate);
-  }
+  for (std::size_t n = 0; n < model.targets().size(); ++n)
+    if (IsReading(model, model.targets()[n])) readings.push_back(n);
+  const double longest = LongestRecord(model, readings);
   const double from = longest > kAllReached ? 2 / longest : kGridEnds;
   for (const double line : StrongestLines(model, residual, readings, {from, kLinesTried}))
     for (int k = -kBeside; k <= kBeside; ++k) f.push_back(line + k / (kBeside * longest));

@@ -22,7 +22,9 @@ std::size_t PaddedLength(std::size_t rows) {
   return n;
 }
 
-double LongestOf(const CaseModel& model, const std::vector<std::size_t>& targets) {
+}  // namespace
+
+double LongestRecord(const CaseModel& model, const std::vector<std::size_t>& targets) {
   double longest = 0;
   for (const std::size_t n : targets) {
     const Target& t = model.targets()[n];
@@ -31,8 +33,6 @@ double LongestOf(const CaseModel& model, const std::vector<std::size_t>& targets
   }
   return longest;
 }
-
-}  // namespace
 
 std::vector<double> Peaks(const std::vector<double>& f, const std::vector<double>& power,
                           std::size_t count, double apart) {
@@ -60,7 +60,7 @@ std::vector<double> StrongestLines(const CaseModel& model, const std::vector<dou
     std::copy_n(residual.begin() + static_cast<std::ptrdiff_t>(t.first), t.count, padded.begin());
     spectra[k] = RealFft(padded);
   });
-  const double longest = LongestOf(model, targets);
+  const double longest = LongestRecord(model, targets);
   if (!(longest > 0)) return {};
   std::vector<double> f, power;  // half the width of a line apart
   const auto cell_of = [&](double frequency) {

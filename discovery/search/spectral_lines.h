@@ -11,6 +11,9 @@ struct LineBand {
   std::size_t count = 0;  // strongest lines
 };
 
+/// The longest of these targets' records [s].
+double LongestRecord(const CaseModel& model, const std::vector<std::size_t>& targets);
+
 /// Frequencies [Hz] of the strongest lines that the residuals of these targets (places in `model.targets()`) have
 /// between `band.from` and 0.4 of their sampling rate, any phase, strongest first: their Fourier transforms, padded to
 /// twice their length, powers added. `residual`: over the floor [-].

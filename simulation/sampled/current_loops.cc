@@ -6,7 +6,12 @@
 
 namespace ambrig {
 
-void CurrentLoops::Targets(long long n, long long at, std::vector<BearingControl>& control) {
+long long CurrentLoops::CommandsOf(long long n) const {
+  return n >= 0 ? n : source_ == SetPoints::kOfTheController ? -1 : 0;
+}
+
+void CurrentLoops::Targets(long long n, std::vector<BearingControl>& control) {
+  const long long at = CommandsOf(n);
   const bool scenario = source_ == SetPoints::kOfTheScenario;
   target_.resize(control.size());
   for (std::size_t k = 0; k < control.size(); ++k)
@@ -23,8 +28,7 @@ void CurrentLoops::Targets(long long n, long long at, std::vector<BearingControl
 }
 
 void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
-  const long long at = n >= 0 ? n : source_ == SetPoints::kOfTheController ? -1 : 0;
-  Targets(n, at, control);
+  Targets(n, control);
   for (std::size_t k = 0; k < control.size(); ++k) {
     BearingControl& c = control[k];
     const Lane& target = target_[k];
@@ -34,6 +38,7 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
       if (c.disabled[AsSize(j)]) c.duty[j] = 0;
   }
   first_period_ = false;
+  const long long at = CommandsOf(n);
   if (at < 0) return;
   for (const CommandPlan::Signal& s : commands_.duty) {
     if (n < 0 && commands_.StartsAt(s)) continue;

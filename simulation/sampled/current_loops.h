@@ -28,8 +28,9 @@ class CurrentLoops {
   void Period(long long n, std::vector<BearingControl>& control);
 
  private:
-  /// Of period n, with the scenario's commands of period `at`.
-  void Targets(long long n, long long at, std::vector<BearingControl>& control);
+  /// The period whose commands of the scenario act in period n; negative: none do.
+  long long CommandsOf(long long n) const;
+  void Targets(long long n, std::vector<BearingControl>& control);
 
   double duty_min_;  // [-]
   const CommandPlan& commands_;
