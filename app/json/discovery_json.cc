@@ -50,6 +50,7 @@ Json DataJson(const std::vector<DataFault>& faults) {
                    {"seconds", Number(f.seconds)},
                    {"with", f.with},
                    {"mend", f.mend},
+                   {"detail", f.detail},
                    {"probability", f.probability}});
   return all;
 }

@@ -79,6 +79,7 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
   CheckHeldFromStart(model, r, columns, out);
   CheckSpeedTime(model, r, columns, out);
   CheckScenario(model, h, r, columns, out);
+  CheckController(model, r, columns, out);
   CheckAngle(model, r, out);
   CheckCommands(model, h, r, columns, out);
   return out;
@@ -134,8 +135,9 @@ std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<doub
 }
 
 std::string FaultText(const DataFault& f) {
-  return fmt::format("{}: {} {}{}", f.record, f.channel.empty() ? "the record" : f.channel,
-                     Quantity(f), f.mend.empty() ? "" : "; to mend it: " + f.mend);
+  return fmt::format("{}: {} {}{}{}", f.record, f.channel.empty() ? "the record" : f.channel,
+                     Quantity(f), f.detail.empty() ? "" : ": " + f.detail,
+                     f.mend.empty() ? "" : "; to mend it: " + f.mend);
 }
 
 }  // namespace ambrig

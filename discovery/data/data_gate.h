@@ -21,6 +21,7 @@ struct DataFault {
   double seconds = 0;  // late (positive), lost, frozen or clipped time [s]
   std::string with;    // the other column, the scenario that fits; "phase", "conjugate", "decibels"
   std::string mend;    // a line to paste into the record's table of the case file
+  std::string detail;  // what shows it, where no column's prediction does
   double probability = 0;
 };
 

@@ -55,6 +55,11 @@ void CheckHeldFromStart(const CaseModel& model, std::size_t record,
 void CheckCommands(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 
+/// Readings, set-points and commands against the controller's own program, which no effect of the rig changes: commands
+/// that are not those of the scenario, and readings that come late.
+void CheckController(const CaseModel& model, std::size_t record,
+                     const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+
 /// The units of what drives a record with imposed motion or currents instead of being predicted: only values that cannot be
 /// show them.
 void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "actuators/magnetics/radial_stator.h"
-#include "control/position/pid.h"
 #include "core/record/missing_samples.h"
+#include "discovery/model/controller_block.h"
 #include "discovery/model/record_traits.h"
 #include "discovery/model/residual_force.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -49,60 +49,12 @@ std::vector<const Channel*> AllOf(const Record& record, const BearingParameters&
   return out;
 }
 
-/// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
 void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
                      const BridgedRecord& data, BlockErrors& out) {
-  const Record& d = data.record;
-  // only the PID's start can be told from data
-  if (!nominal.controller.IsPlainPid() || !scenario.switches.empty()) return;
-  if (scenario.start == StartState::kClamped ||
-      std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate)
-    return;
   Mean error;
-  for (const BearingParameters& b : nominal.bearings) {
-    if (!b.kind->eight_poles) continue;
-    const auto y = AllOf(d, b, ChannelKind::kReading), s = AllOf(d, b, ChannelKind::kSetPoint);
-    if (y.empty() || s.empty()) continue;
-    const RadialStator stator(b.radial);
-    const PidParameters& pid = PidOf(nominal, b);
-    const double Ts = 1 / nominal.controller.rate, kc = ForceConstant(b) * BiasCurrent(nominal, b);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const CoilVector& direction = side == 0 ? stator.cosine() : stator.sine();
-      const auto force = [&](std::size_t k) {  // f = k c0 v, v by projection on the healthy W
-        double v = 0;
-        for (std::size_t j = 0; j < s.size(); ++j)
-          v += direction[static_cast<Eigen::Index>(j)] * s[j]->samples[k] / 4;
-        return kc * v;
-      };
-      PidState state;
-      const std::string axis = b.Axes()[side];
-      const std::size_t settle = 30;  // the derivative's memory
-      std::size_t since = 0;  // rows since the start, or since a gap: its integral is unknown
-      std::vector<double> errors;
-      std::vector<char> counts;
-      for (std::size_t k = 0; k + 1 < d.rows(); ++k) {
-        const double t = d.TimeAt(k) + 1e-10;
-        double r = 0, f = 0;
-        for (const Excitation& e : scenario.excitations) {
-          if (e.target != axis) continue;
-          (e.port == "reference" ? r : f) += e.Value(t);
-        }
-        const double out_force =
-            PidStep(pid, Ts, PidFilter(pid, Ts), y[side]->samples[k], r, f, state);
-        errors.push_back(force(k + 1) - out_force);
-        if (since == settle) state.integral += errors.back();  // starts where the data stand
-        counts.push_back(since > settle && data.Sound(k + 1) ? 1 : 0);
-        since = data.Sound(k + 1) ? since + 1 : 0;
-      }
-      double mean = 0;
-      double count = 0;
-      for (std::size_t k = 0; k < errors.size(); ++k)
-        if (counts[k]) mean += errors[k], count += 1;
-      mean /= std::max<double>(1, count);
-      for (std::size_t k = 0; k < errors.size(); ++k)
-        if (counts[k]) error.Add((errors[k] - mean) / kc);
-    }
-  }
+  for (const ControllerAxis& axis : ControllerAxes(nominal, scenario, data))
+    for (std::size_t k = 0; k < axis.error.size(); ++k)
+      if (axis.counts[k]) error.Add(axis.error[k]);
   Put(out, "controller", error);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "discovery/model/nuisances.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
