@@ -4,7 +4,7 @@
 #include <string>
 
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 
 namespace ambrig {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 
 namespace ambrig {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 #include "discovery/shape/shape_fit.h"
 
 namespace ambrig {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "discovery/data/input_size.h"
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 #include "discovery/practice/examination.h"
 #include "discovery/practice/measured_case.h"
 #include "rig/bearing_kinds/bearing_kind.h"

@@ -8,9 +8,9 @@
 
 #include "actuators/electronics/amplifier_parameters.h"
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/decision/unit_errors.h"
+#include "discovery/explain/explain.h"
 #include "discovery/model/residual.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "effects/catalogue.h"

@@ -1,5 +1,5 @@
 // The whole search on measurements whose cause is written down: nothing, an effect, wrong data.
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 
 #include <gmock/gmock.h>
 

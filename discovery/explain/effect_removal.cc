@@ -1,9 +1,9 @@
 /// Effects that were adopted and go again: they have no size, or the others make them needless.
 #include "core/base/coil_name.h"
 #include "discovery/decision/decide.h"
-#include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/where_it_acts.h"
+#include "discovery/explain/explanation_search.h"
 #include "discovery/search/candidate_fit.h"
 
 namespace ambrig {

@@ -4,7 +4,7 @@
 
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
-#include "discovery/decision/explainer.h"
+#include "discovery/explain/explanation_search.h"
 
 namespace ambrig {
 

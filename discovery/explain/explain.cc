@@ -9,8 +9,8 @@
 #include "discovery/calibration/calibration.h"
 #include "discovery/data/clock_shift.h"
 #include "discovery/data/input_size.h"
-#include "discovery/decision/explain.h"
-#include "discovery/decision/explainer.h"
+#include "discovery/explain/explain.h"
+#include "discovery/explain/explanation_search.h"
 
 namespace ambrig {
 

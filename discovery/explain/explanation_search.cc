@@ -1,4 +1,4 @@
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include "discovery/data/lonely_rows.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
-#include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/prepared_models.h"
+#include "discovery/explain/explanation_search.h"
 
 namespace ambrig {
 

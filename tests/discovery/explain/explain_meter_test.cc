@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/math/noise.h"
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 #include "tests/discovery/bench_case.h"
 
 namespace ambrig {

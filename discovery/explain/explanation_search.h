@@ -1,10 +1,9 @@
 #pragma once
-/// The search behind Explain: its state and its steps. Steps that add, swap or remove effects stand in
-/// explainer_steps.cc, wrong data in explainer_data.cc, errors of the coils in explainer_coils.cc, the rest in explain.cc.
+/// The search behind Explain: its state and its steps.
 #include <optional>
 
-#include "discovery/decision/explain.h"
 #include "discovery/decision/unit_errors.h"
+#include "discovery/explain/explain.h"
 
 namespace ambrig {
 

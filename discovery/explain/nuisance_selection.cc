@@ -7,9 +7,9 @@
 
 #include "discovery/data/input_size.h"
 #include "discovery/decision/conclusion.h"
-#include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/nuisance_choice.h"
+#include "discovery/explain/explanation_search.h"
 #include "discovery/model/residual.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"

@@ -1,9 +1,9 @@
 // Names of several effects, each judged anew beside the others.
 #include <algorithm>
 
-#include "discovery/decision/explainer.h"
 #include "discovery/decision/law_scatter.h"
 #include "discovery/decision/rejudge.h"
+#include "discovery/explain/explanation_search.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/shape/shape_names.h"
 

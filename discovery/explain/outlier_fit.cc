@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/explainer.h"
+#include "discovery/explain/explanation_search.h"
 #include "discovery/model/residual.h"
 #include "discovery/search/burst_rows.h"
 #include "discovery/search/posterior_draws.h"

@@ -4,10 +4,10 @@
 
 #include "core/base/coil_name.h"
 #include "discovery/decision/conclusion.h"
-#include "discovery/decision/explainer.h"
 #include "discovery/decision/last_fit.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/where_it_acts.h"
+#include "discovery/explain/explanation_search.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
 #include "discovery/shape/shape_names.h"

@@ -3,9 +3,9 @@
 
 #include "core/base/errors.h"
 #include "discovery/decision/conclusion.h"
-#include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/where_it_acts.h"
+#include "discovery/explain/explanation_search.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/shape/named_law.h"
 #include "discovery/shape/shape_fit.h"
