@@ -4,7 +4,7 @@
 #include <string>
 
 #include "discovery/decision/compare.h"
-#include "discovery/explain/explain.h"
+#include "discovery/decision/explanation.h"
 
 namespace ambrig {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The verdict and what goes with it, from the stages of a search.
+#include "discovery/decision/explanation.h"
 #include "discovery/decision/unit_errors.h"
-#include "discovery/explain/explain.h"
 
 namespace ambrig {
 

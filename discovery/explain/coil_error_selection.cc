@@ -1,5 +1,4 @@
-// Steps of the search: what the coils of any machine of the type differ by, as the rig file states, is no effect.
-#include <fmt/format.h>
+#include "discovery/explain/coil_error_selection.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,12 +6,8 @@
 #include "core/base/coil_name.h"
 #include "discovery/decision/coil_choice.h"
 #include "discovery/decision/conclusion.h"
-#include "discovery/decision/prepared_models.h"
-#include "discovery/explain/explanation_search.h"
 #include "discovery/model/coil_errors.h"
-#include "discovery/model/residual.h"
 #include "discovery/search/linear_step.h"
-#include "discovery/search/screen.h"
 #include "simulation/sampled/coil_spread.h"
 
 namespace ambrig {
@@ -24,61 +19,46 @@ constexpr double kFallen = 0.5;  // of the squared error beside the noise: they 
 
 }  // namespace
 
-void Explainer::ApplyNuisances() {
-  UseNuisancesInBoth(full_, model_, record_kinds_, coil_kinds_, out_.effective_sample_size,
-                     coil_doubt_);
+bool CoilErrorSelection::MayBeOne(const EffectInstance& e) const {
+  return any() && NamesCoil(e.target);
 }
 
-Explainer::UsedNuisances Explainer::Used() const {
-  return {record_kinds_, coil_kinds_,     coil_doubt_,     coils_seen_at_,
-          of_units_,     full_.nuisances, model_.nuisances};
+void CoilErrorSelection::Use(const FitResult& as_filed, FitResult& base) {
+  if (!CoilsDiffer(models_.rig().amplifier) ||
+      RatiosOf(models_.thinned(), base).Answered() < kNoise)
+    return;
+  progress_(0.04, "what the coils differ by");
+  Find(as_filed);
+  if (!any()) return;
+  Allow(as_filed, {});
+  models_.ForgetSignatures();
+  const FitResult promised =
+      LinearlyRefitted(models_.thinned(), as_filed, models_.effective_sample_size());
+  base = models_.FitFrom(as_filed.hypothesis, &promised.jacobian);
+  log_.Step("errors of single coils", base);
 }
 
-void Explainer::UseAgain(const UsedNuisances& used) {
-  record_kinds_ = used.of_records;
-  coil_kinds_ = used.of_coils;
-  coil_doubt_ = used.coil_doubt;
-  coils_seen_at_ = used.coils_seen_at;
-  of_units_ = used.of_units;
-  full_.nuisances = used.full;
-  model_.nuisances = used.thinned;
-}
-
-void Explainer::UseCoilErrors(const FitResult& as_filed, FitResult& now) {
-  if (!CoilsDiffer(rig_.amplifier) || RatiosOf(model_, now).Answered() < kNoise) return;
-  Progress(0.04, "what the coils differ by");
-  FindCoilErrors(as_filed);
-  if (coil_errors_.empty()) return;
-  AllowCoilErrors(as_filed);
-  bank_ = SignatureBank();
-  const FitResult promised = LinearlyRefitted(model_, as_filed, out_.effective_sample_size);
-  now = FitNow(as_filed.hypothesis, &promised.jacobian);
-  out_.base_ratio_fit = now.ratio_fit;
-  out_.base_ratio_validate = now.ratio_validate;
-  out_.ladder.push_back({"errors of single coils", now.ratio_fit, now.ratio_validate});
-}
-
-void Explainer::FindCoilErrors(const FitResult& as_filed) {
-  coil_errors_ = CoilErrorKinds(model_, as_filed.hypothesis);
-  unit_changes_ = ChangesOfUnits(model_, as_filed.hypothesis);
+void CoilErrorSelection::Find(const FitResult& as_filed) {
+  possible_ = CoilErrorKinds(models_.thinned(), as_filed.hypothesis);
+  unit_changes_ = ChangesOfUnits(models_.thinned(), as_filed.hypothesis);
   as_filed_jacobian_ = as_filed.jacobian;
 }
 
-void Explainer::RenewCoilFloors(const Hypothesis& as_filed, const FitResult& now) {
-  coil_kinds_.clear();
-  ApplyNuisances();
-  FindCoilErrors(At(as_filed));
-  AllowCoilErrors(now);
+void CoilErrorSelection::RenewFloors(const Hypothesis& as_filed, const FitResult& now,
+                                     const std::vector<EffectInstance>& effects) {
+  nuisances_.UseNoneOfCoils();
+  Find(models_.At(as_filed));
+  Allow(now, effects);
 }
 
-FitResult Explainer::WithoutCoilErrors(const FitResult& now) {
-  coil_kinds_.clear();
-  ApplyNuisances();
+FitResult CoilErrorSelection::Without(const FitResult& now) {
+  nuisances_.UseNoneOfCoils();
+  const CaseModel& model = models_.thinned();
   FitResult bare = now;
-  bare.residual = Residual(model_, now.predicted);
+  bare.residual = Residual(model, now.predicted);
   // of the rig's parameters as the rig file has them, of the adopted effects here
   bare.jacobian = as_filed_jacobian_;
-  if (model_.nuisances.any()) model_.nuisances.Eliminate(bare.jacobian);
+  if (model.nuisances.any()) model.nuisances.Eliminate(bare.jacobian);
   const auto rig = static_cast<std::size_t>(as_filed_jacobian_.cols());
   std::vector<std::size_t> adopted(now.hypothesis.free.size() - rig);
   if (adopted.empty()) return bare;
@@ -86,60 +66,58 @@ FitResult Explainer::WithoutCoilErrors(const FitResult& now) {
   bare.jacobian.conservativeResize(Eigen::NoChange,
                                    static_cast<Eigen::Index>(now.hypothesis.free.size()));
   bare.jacobian.rightCols(static_cast<Eigen::Index>(adopted.size())) =
-      Jacobian(model_, now.hypothesis, adopted);
+      Jacobian(model, now.hypothesis, adopted);
   return bare;
 }
 
-void Explainer::AllowCoilErrors(const FitResult& now) {
-  const FitResult bare = WithoutCoilErrors(now);
-  std::vector<NuisanceKind> possible = coil_errors_;
-  std::erase_if(possible, [&](const NuisanceKind& kind) {
-    return std::any_of(out_.adopted.begin(), out_.adopted.end(),
-                       [&](const EffectInstance& e) { return e.target == kind.coil; });
+void CoilErrorSelection::Allow(const FitResult& now, const std::vector<EffectInstance>& effects) {
+  const FitResult bare = Without(now);
+  std::vector<NuisanceKind> believable = possible_;
+  std::erase_if(believable, [&](const NuisanceKind& kind) {
+    return std::ranges::count(effects, kind.coil, &EffectInstance::target) > 0;
   });
-  CoilErrorChoice choice = ChooseCoilErrors(model_, possible, bare, out_.effective_sample_size);
-  coil_kinds_ = std::move(choice.kinds);
-  coil_doubt_ = choice.doubt;
-  coils_seen_at_ = now.ratio_fit;
-  ApplyNuisances();
-  of_units_ = ErrorsOfUnits(model_, unit_changes_);
+  const CoilErrorChoice choice =
+      ChooseCoilErrors(models_.thinned(), believable, bare, models_.effective_sample_size());
+  nuisances_.UseOfCoils(choice.kinds, choice.doubt, now.ratio_fit);
+  nuisances_.SetOfUnits(ErrorsOfUnits(models_.thinned(), unit_changes_));
 }
 
-void Explainer::RenewCoilErrors(FitResult& now) {
+void CoilErrorSelection::Renew(FitResult& now, const std::vector<EffectInstance>& effects) {
   const auto excess = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
-  if (coil_errors_.empty() || excess(now.ratio_fit) > kFallen * excess(coils_seen_at_)) return;
-  AllowCoilErrors(now);
-  bank_.TakeOffNuisances(model_);
-  now = FitNow(now.hypothesis, nullptr);
+  if (!any() || excess(now.ratio_fit) > kFallen * excess(nuisances_.of_coils().seen_at)) return;
+  Allow(now, effects);
+  models_.signatures().TakeOffNuisances(models_.thinned());
+  now = models_.FitFrom(now.hypothesis);
 }
 
-void Explainer::StateSdOfCoilErrors(const FitResult& now) {
-  if (coil_kinds_.empty()) return;
-  const std::vector<NuisanceKind> kinds = coil_kinds_;
-  const UsedNuisances used = Used();
-  const std::vector<double> sd = SdOfCoilErrors(model_, kinds, WithoutCoilErrors(now),
-                                                out_.effective_sample_size, coil_doubt_);
-  UseAgain(used);
-  for (NuisanceFound& f : out_.nuisances)
-    for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (f.record.empty() && f.name == kinds[k].name) f.sd = sd[k];
-}
-
-bool Explainer::CoilErrorsExplain(std::size_t adopted, const FitResult& now, FitResult& without) {
-  if (coil_errors_.empty() || !NamesCoil(out_.adopted[adopted].target)) return false;
-  const UsedNuisances used = Used();
-  const std::vector<EffectInstance> all = out_.adopted;
-  out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(adopted));
-  AllowCoilErrors(without);
-  FitResult beside = FitNow(without.hypothesis, nullptr);
-  out_.adopted = all;
-  if (RatiosOf(model_, beside).Answered() <
-      std::max(kNoise, 1.03 * RatiosOf(model_, now).Answered())) {
+bool CoilErrorSelection::ExplainInstead(const std::vector<EffectInstance>& effects,
+                                        std::size_t index, const FitResult& now,
+                                        FitResult& without) {
+  if (!MayBeOne(effects[index])) return false;
+  const NuisanceSelection::State used = nuisances_.Used();
+  std::vector<EffectInstance> others = effects;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(index));
+  Allow(without, others);
+  FitResult beside = models_.FitFrom(without.hypothesis);
+  if (RatiosOf(models_.thinned(), beside).Answered() <
+      std::max(kNoise, 1.03 * RatiosOf(models_.thinned(), now).Answered())) {
     without = std::move(beside);
     return true;
   }
-  UseAgain(used);
+  nuisances_.UseAgain(used);
   return false;
+}
+
+void CoilErrorSelection::StateSd(const FitResult& now, std::vector<NuisanceFound>& found) {
+  const NuisanceSelection::State used = nuisances_.Used();
+  const std::vector<NuisanceKind>& kinds = used.of_coils.kinds;
+  if (kinds.empty()) return;
+  const std::vector<double> sd = SdOfCoilErrors(
+      models_.thinned(), kinds, Without(now), models_.effective_sample_size(), used.of_coils.doubt);
+  nuisances_.UseAgain(used);
+  for (NuisanceFound& f : found)
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      if (f.record.empty() && f.name == kinds[k].name) f.sd = sd[k];
 }
 
 }  // namespace ambrig

@@ -1,9 +1,8 @@
-// Rows where model and machine took different branches, for example because a limiter held one period longer.
+#include "discovery/explain/outlier_fit.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/explain/explanation_search.h"
-#include "discovery/model/residual.h"
 #include "discovery/search/burst_rows.h"
 #include "discovery/search/posterior_draws.h"
 
@@ -13,7 +12,8 @@ namespace {
 
 constexpr int kBranchDraws = 31;
 
-/// Residuals of hypotheses that the records allow as well as `fit`, itself the first, in the records of the bursts.
+/// Residuals of hypotheses that the records allow as well as `fit`, itself the first, in the
+/// records of the bursts.
 struct Branches {
   std::vector<Hypothesis> hypotheses;
   std::vector<std::vector<double>> residuals;
@@ -63,45 +63,39 @@ double WorstRmsIn(const CaseModel& model, const std::vector<double>& residual,
 
 }  // namespace
 
-/// A fit without the rows where errors are large, few and together tells where the parameters may be; of what it
-/// allows, the point whose simulation takes the machine's branch most is the start of a fit with all rows.
-void Explainer::FitPastBursts(FitResult& now) {
+void FitPastOutliers(SearchModels& models, FitResult& now) {
   constexpr double kLeastGain = 10;  // of the score
-  const std::vector<SampleSpan> bursts = BurstRows(model_, now.residual, Which::kFit);
+  const CaseModel& model = models.thinned();
+  const std::vector<SampleSpan> bursts = BurstRows(model, now.residual, Which::kFit);
   if (bursts.empty()) return;
-  const std::vector<char> counted = model_.sound();
-  model_.LeaveOut(bursts);
-  const FitResult without = FitNow(now.hypothesis, nullptr);
-  model_.SetSound(counted);
+  const FitResult without = models.FitWithoutRows(bursts, now.hypothesis);
   if (!without.converged) return;
-  const Branches branches = BranchesOf(model_, without, bursts, out_.effective_sample_size);
+  const Branches branches = BranchesOf(model, without, bursts, models.effective_sample_size());
   if (branches.hypotheses.empty()) return;
-  const FitResult there = At(BestBranchOf(model_, branches));
-  FitResult again = FitNow(there.hypothesis, &there.jacobian);
-  if (!again.converged || ScoreOf(there) < ScoreOf(again)) again = there;
-  if (again.converged && Gain(now, again) > kLeastGain) now = std::move(again);
+  const FitResult there = models.At(BestBranchOf(model, branches));
+  FitResult again = models.FitFrom(there.hypothesis, &there.jacobian);
+  if (!again.converged || models.ScoreOf(there) < models.ScoreOf(again)) again = there;
+  if (again.converged && models.Gain(now, again) > kLeastGain) now = std::move(again);
 }
 
-/// Nothing is fitted to unseen records: where their bursts are gone for one of the hypotheses that the fitted records
-/// allow, these rows tell no law from another and do not count.
-bool Explainer::PassOverBursts(FitResult& now) {
+bool PassOverOutliers(SearchModels& models, NuisanceSelection& nuisances, FitResult& now) {
   constexpr double kGone = 0.3;  // of the burst's rms
-  const std::vector<SampleSpan> bursts = BurstRows(model_, now.residual, Which::kValidate);
+  const CaseModel& model = models.thinned();
+  const std::vector<SampleSpan> bursts = BurstRows(model, now.residual, Which::kValidate);
   if (bursts.empty()) return false;
-  const Branches branches = BranchesOf(model_, now, bursts, out_.effective_sample_size);
+  const Branches branches = BranchesOf(model, now, bursts, models.effective_sample_size());
   std::vector<SampleSpan> open;
   for (const SampleSpan& s : bursts) {
-    const double here = WorstRmsIn(model_, now.residual, s);
+    const double here = WorstRmsIn(model, now.residual, s);
     if (std::ranges::any_of(branches.residuals, [&](const std::vector<double>& r) {
-          return WorstRmsIn(model_, r, s) < std::max(kGone * here, 1.5);
+          return WorstRmsIn(model, r, s) < std::max(kGone * here, 1.5);
         }))
       open.push_back(s);
   }
   if (open.empty()) return false;
-  full_.LeaveOut(open);
-  model_.LeaveOut(open);
-  SetNuisances(record_kinds_);
-  now = At(now.hypothesis);
+  models.LeaveOut(open);
+  nuisances.UseOfRecords(nuisances.of_records());
+  now = models.At(now.hypothesis);
   return true;
 }
 

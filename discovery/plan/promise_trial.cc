@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/errors.h"
+#include "discovery/explain/explain.h"
 #include "discovery/plan/plan.h"
 #include "discovery/practice/measured_case.h"
 #include "effects/effect.h"
