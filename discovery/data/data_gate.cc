@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 #include "discovery/data/gate_points.h"
 #include "discovery/model/in_parallel.h"

@@ -8,6 +8,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/data/noise_estimate.h"
+#include "discovery/model/nuisance_kinds.h"
 #include "rig/clearance.h"
 
 namespace ambrig {

@@ -1,15 +1,25 @@
 #pragma once
-/// What the checks of the data gate ask of the columns of a record.
+/// The columns of a record as the data gate sees them, and what its checks ask of them.
 #include <string>
 #include <vector>
 
 #include "discovery/data/data_gate.h"
 #include "discovery/data/held_values.h"
+#include "discovery/data/signal_match.h"
 
 namespace ambrig {
 
-/// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by no
-/// more are not told apart.
+/// One column of one record as the gate sees it.
+struct GateColumn {
+  std::string name;
+  MatchedColumn column;    // over the noise floor, samples that are no numbers left out
+  Match match;             // of it
+  double floor = 1;        // of the channel [SI]
+  bool explained = false;  // a fault was found: later checks leave it out
+};
+
+/// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by
+/// no more are not told apart.
 double MostZero(const CaseModel& model, const std::string& channel);
 
 /// Largest value that the channel can show [SI]; infinity where nothing limits it.
@@ -32,11 +42,13 @@ Others OthersOf(const std::vector<GateColumn>& columns, const GateColumn& of);
 inline constexpr double kAlone =
     0.3;  // of its own error that the others of a column in error may show
 
-/// Whether the current and the set-point of a coil show the same where the model expects something else of this one of
-/// them: an amplifier that follows its set-point bears the column out, since a mistake of a logger changes one of the two.
+/// Whether the current and the set-point of a coil show the same where the model expects something
+/// else of this one of them: an amplifier that follows its set-point bears the column out, since a
+/// mistake of a logger changes one of the two.
 bool BorneOut(const std::vector<GateColumn>& columns, const GateColumn& c);
 
-/// A fault of a column ("": of all) that is as probable as undoing it leaves little: `left`, a share of the error.
+/// A fault of a column ("": of all) that is as probable as undoing it leaves little: `left`, a
+/// share of the error.
 DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
                        double left);
 
@@ -47,25 +59,16 @@ std::string LeaveOutLine(const CaseRecord& r, std::size_t first, std::size_t cou
 void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
               std::vector<DataFault>& out);
 
-/// As CheckHeld, of stretches from the first row on: those of a column that comes late repeat its first value.
-void CheckHeldFromStart(const CaseModel& model, std::size_t record,
-                        std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+/// Line of a case file that gives a column its right unit, or a gain where no unit does; `factor`:
+/// measured over what it should be.
+std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor);
 
-/// Units, signs and exchanges of the set-points of a held rotor, which its scenario commands and no model predicts.
-void CheckCommands(const CaseModel& model, const Hypothesis& h, std::size_t record,
-                   const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
-
-/// The units of what drives a record with imposed motion or currents instead of being predicted: only values that cannot be
-/// show them.
-void CheckDrives(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
-
-/// The unit and the sign of the measured angle of a prescribed speed.
-void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
-
-/// A column that is `factor` times what it should be, a wrong sign where that is negative, with the line that mends it.
+/// A column that is `factor` times what it should be, a wrong sign where that is negative, with the
+/// line that mends it.
 DataFault FactorFault(const CaseRecord& r, const std::string& channel, double factor, double left);
 
-/// Tells a fault "scenario", in place of those without a scenario that fits which were told of the record before.
+/// Tells a fault "scenario", in place of those without a scenario that fits which were told of the
+/// record before.
 void TellScenario(DataFault fault, std::vector<DataFault>& out);
 
 inline constexpr double kMoves = 8;  // floors: a column that moves less tells no time

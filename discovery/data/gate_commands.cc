@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/model/record_rows.h"

@@ -1,6 +1,7 @@
 /// Blocks of rows that a record lost while its clock went on: its times tell where.
 #include <cmath>
 
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 
 namespace ambrig {

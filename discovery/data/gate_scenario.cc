@@ -7,6 +7,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/case/case_file.h"
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 #include "discovery/model/record_rows.h"
 

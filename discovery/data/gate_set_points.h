@@ -3,7 +3,7 @@
 /// together, where its force is at a limit.
 #include <vector>
 
-#include "discovery/data/data_gate.h"
+#include "discovery/data/gate_columns.h"
 #include "discovery/data/held_values.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/data/data_gate.h"
+#include "discovery/data/gate_columns.h"
 
 namespace ambrig {
 

@@ -8,6 +8,7 @@
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 #include "discovery/data/gate_shifts.h"
 #include "discovery/data/held_values.h"

@@ -8,6 +8,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/data/assignment.h"
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 
 namespace ambrig {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/record/channels.h"
+#include "discovery/data/gate_checks.h"
 #include "discovery/data/gate_columns.h"
 #include "discovery/data/gate_set_points.h"
 #include "discovery/data/held_values.h"

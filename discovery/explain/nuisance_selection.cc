@@ -8,6 +8,7 @@
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/nuisance_choice.h"
+#include "discovery/model/nuisance_kinds.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
 

@@ -25,7 +25,7 @@ Branches BranchesOf(const CaseModel& model, const FitResult& fit,
   std::vector<Hypothesis> all = {fit.hypothesis};
   for (Hypothesis& h : PosteriorDraws(model, fit, effective_sample_size, kBranchDraws))
     all.push_back(std::move(h));
-  QuickLook look{std::vector<char>(model.data().records.size(), 0), fit.predicted};
+  RecordSubset look{std::vector<char>(model.data().records.size(), 0), fit.predicted};
   for (const SampleSpan& s : bursts) look.records[s.record] = 1;
   auto predicted = model.PredictAll(all, ModelFidelity::kAsSampled, &look);
   for (std::size_t k = 0; k < all.size(); ++k) {

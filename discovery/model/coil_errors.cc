@@ -7,7 +7,7 @@
 
 #include "core/base/coil_name.h"
 #include "discovery/model/branch_rows.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 #include "discovery/model/residual.h"
 #include "effects/catalogue.h"
 

@@ -1,4 +1,6 @@
 // The columns of the nuisances: what one sd of each does to every row of a case.
+#include "discovery/model/nuisance_kinds.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 #include "core/base/coil_name.h"
 #include "core/record/channels.h"
 #include "discovery/data/input_size.h"
-#include "discovery/model/model.h"
-#include "discovery/model/nuisances.h"
 #include "effects/catalogue.h"
 #include "rig/clearance.h"
 

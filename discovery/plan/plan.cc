@@ -7,6 +7,7 @@
 
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/prepared_models.h"
+#include "discovery/model/nuisance_kinds.h"
 #include "discovery/plan/planner.h"
 #include "discovery/practice/measured_case.h"
 #include "discovery/search/signature_bank.h"

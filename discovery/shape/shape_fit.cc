@@ -191,7 +191,7 @@ class ShapeProblem {
   const CaseModel& model_;
   const Shape& shape_;
   double n_, weight_ = 1;
-  const QuickLook look_;  // at the fitted records: the sensitivities need no others
+  const RecordSubset look_;  // at the fitted records: the sensitivities need no others
   Index first_ = 0, all_ = 0;
   Eigen::MatrixXd rig_, gram_;
 };

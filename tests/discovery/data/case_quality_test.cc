@@ -7,6 +7,7 @@
 #include <functional>
 #include <sstream>
 
+#include "discovery/data/gate_checks.h"
 #include "discovery/decision/compare.h"
 
 namespace ambrig {

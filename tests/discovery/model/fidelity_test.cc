@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 #include "discovery/practice/examination.h"
 #include "effects/catalogue.h"
 #include "rig/rig_assembly.h"

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "discovery/model/nuisance_kinds.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {

@@ -1,4 +1,4 @@
-#include "discovery/search/quick_look.h"
+#include "discovery/search/worst_records.h"
 
 #include <algorithm>
 
@@ -23,9 +23,9 @@ std::vector<RecordError> ErrorsOf(const CaseModel& model, const FitResult& now) 
 
 }  // namespace
 
-QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
+RecordSubset WorstRecords(const CaseModel& model, const FitResult& now) {
   const std::vector<CaseRecord>& records = model.data().records;
-  QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
+  RecordSubset look{std::vector<char>(records.size(), 0), now.predicted};
   std::size_t taken = 0;
   double worst = 0;
   for (const RecordError& e : ErrorsOf(model, now)) {
@@ -40,9 +40,9 @@ QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
   return look;
 }
 
-QuickLook RecordsShowing(const CaseModel& model, const FitResult& now) {
+RecordSubset RecordsShowing(const CaseModel& model, const FitResult& now) {
   const std::vector<CaseRecord>& records = model.data().records;
-  QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
+  RecordSubset look{std::vector<char>(records.size(), 0), now.predicted};
   if (!HoldsAdopted(model, now) && now.ratio_fit < kPlain) {
     look.records.assign(records.size(), 1);
     return look;

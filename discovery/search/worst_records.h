@@ -6,11 +6,11 @@ namespace ambrig {
 
 /// The one or two fitted records of free rotors with the largest error of `now`; all records where
 /// none has any.
-QuickLook WorstRecords(const CaseModel& model, const FitResult& now);
+RecordSubset WorstRecords(const CaseModel& model, const FitResult& now);
 
 /// The records that together hold nine tenths of the error above the noise, of the fitted and of the
 /// unseen ones each. All records where the error is hardly above the noise: then each may count. Beside effects that
 /// were adopted an effect has to explain most of what is left, which the records that hold it show.
-QuickLook RecordsShowing(const CaseModel& model, const FitResult& now);
+RecordSubset RecordsShowing(const CaseModel& model, const FitResult& now);
 
 }  // namespace ambrig

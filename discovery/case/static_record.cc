@@ -1,4 +1,6 @@
 // Records of kind "static": a table of positions and currents that were set, and what was read.
+#include "discovery/case/static_record.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "core/record/text_table.h"
-#include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
 #include "rig/clearance.h"
 #include "rig/rig_channels.h"

@@ -1,4 +1,6 @@
 // Records of kind "frf": which trace of a file is which response of the rig, and how well it is known.
+#include "discovery/case/response_record.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "core/record/read_record.h"
-#include "discovery/case/case_bench.h"
 
 namespace ambrig {
 

@@ -1,5 +1,5 @@
 // Predictions of some records only, and signatures that are completed when more records are asked for.
-#include "discovery/search/quick_look.h"
+#include "discovery/search/worst_records.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@ namespace ambrig {
 namespace {
 
 // The error of a gain goes with the position: the records far out hold it.
-const std::vector<double> kQuickLookX = {1e-6, 6e-5, 2e-6, 1.5e-6, 5e-5};
+const std::vector<double> kWorstRecordsX = {1e-6, 6e-5, 2e-6, 1.5e-6, 5e-5};
 
-TEST(QuickLook, RowsOfOtherRecordsAreTheOnesGiven) {
-  const LinearCase c(kQuickLookX, 1.1, 0);
+TEST(RecordSubset, RowsOfOtherRecordsAreTheOnesGiven) {
+  const LinearCase c(kWorstRecordsX, 1.1, 0);
   const FitResult base = c.Base();
   Hypothesis h = base.hypothesis;
   h.AddEffect(LinearCase::Gain(1.2));
-  const QuickLook look{{0, 1, 0, 0, 0}, std::vector<double>(c.model.size(), 7)};
+  const RecordSubset look{{0, 1, 0, 0, 0}, std::vector<double>(c.model.size(), 7)};
   const auto part = c.model.PredictAll({h}, ModelFidelity::kAsSampled, &look)[0];
   const auto all = c.model.Predict(h);
   ASSERT_TRUE(part && all);
@@ -27,16 +27,16 @@ TEST(QuickLook, RowsOfOtherRecordsAreTheOnesGiven) {
 }
 
 TEST(RecordsShowing, AreThoseThatHoldNineTenthsOfTheError) {
-  const LinearCase c(kQuickLookX, 1.1, 0);
+  const LinearCase c(kWorstRecordsX, 1.1, 0);
   const FitResult base = c.Base();
   ASSERT_GT(base.ratio_fit, 2);
-  const QuickLook look = RecordsShowing(c.model, base);
+  const RecordSubset look = RecordsShowing(c.model, base);
   EXPECT_EQ(look.records, (std::vector<char>{0, 1, 0, 0, 1}));  // the last one is the unseen one
   EXPECT_EQ(look.rest, base.predicted);
 }
 
 TEST(RecordsShowing, AreAllWhereTheErrorIsHardlyAboveTheNoise) {
-  const LinearCase c(kQuickLookX, 1.02, 0);
+  const LinearCase c(kWorstRecordsX, 1.02, 0);
   const FitResult base = c.Base();
   ASSERT_LT(base.ratio_fit, 2);
   EXPECT_EQ(RecordsShowing(c.model, base).records, std::vector<char>(5, 1));
@@ -44,7 +44,7 @@ TEST(RecordsShowing, AreAllWhereTheErrorIsHardlyAboveTheNoise) {
 
 // An effect beside those adopted has to explain most of what is left.
 TEST(RecordsShowing, BesideAnAdoptedEffectAreThoseThatHoldTheErrorHoweverSmall) {
-  const LinearCase c(kQuickLookX, 1.1, 0);
+  const LinearCase c(kWorstRecordsX, 1.1, 0);
   FitOptions there;
   there.iterations = 0;
   const FitResult beside = Fit(c.model, c.With({LinearCase::Gain(1.07)}), there);
@@ -54,7 +54,7 @@ TEST(RecordsShowing, BesideAnAdoptedEffectAreThoseThatHoldTheErrorHoweverSmall) 
 
 // Held rotors are not where resonances are sought, unless there are no others.
 TEST(WorstRecords, AreAllWhereNoRotorIsFree) {
-  const LinearCase c(kQuickLookX, 1.1, 0);
+  const LinearCase c(kWorstRecordsX, 1.1, 0);
   EXPECT_EQ(WorstRecords(c.model, c.Base()).records, std::vector<char>(5, 1));
 }
 
@@ -67,7 +67,7 @@ std::vector<ProbeGroup> GainAndOffset() {
 }
 
 TEST(SignatureBank, LacksRowsUntilTheirRecordIsLookedAt) {
-  const LinearCase c(kQuickLookX, 1.1, 0);
+  const LinearCase c(kWorstRecordsX, 1.1, 0);
   const FitResult base = c.Base();
   SignatureBank whole, part;
   whole.Simulate(c.model, base, GainAndOffset(), nullptr);

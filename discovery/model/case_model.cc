@@ -1,4 +1,4 @@
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -257,7 +257,7 @@ std::optional<std::vector<double>> CaseModel::Predict(const Hypothesis& h) const
 }
 
 std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
-    const std::vector<Hypothesis>& all, ModelFidelity fidelity, const QuickLook* look) const {
+    const std::vector<Hypothesis>& all, ModelFidelity fidelity, const RecordSubset* look) const {
   const std::size_t records = case_.records.size();
   std::vector<RigParameters> rigs;
   for (const Hypothesis& h : all) {

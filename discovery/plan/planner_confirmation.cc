@@ -17,7 +17,7 @@ using Eigen::Index;
 
 namespace {
 
-enum Stream : std::uint32_t { kNumbers = 211, kLaw, kLoadCell, kVariation };
+enum Stream : std::uint32_t { kNumbers = 211, kLawNumbers, kLoadCell, kVariation };
 
 /// The rival with its numbers drawn from their distribution, within their limits.
 Hypothesis Drawn(const Rival& rival, std::uint64_t seed) {
@@ -53,7 +53,7 @@ void Disturb(const TrialRecord& trial, const RivalView& truth, std::uint64_t see
   const double size = DrawnVariation(seed);
   for (Index k = 0; k < truth.law; ++k)
     amount(amount.size() - truth.law + k) =
-        size * Normal(seed, kLaw, static_cast<std::uint64_t>(k));
+        size * Normal(seed, kLawNumbers, static_cast<std::uint64_t>(k));
   const Eigen::VectorXd change = truth.columns * amount;
   std::uint64_t cell = 0;
   for (const Target& t : model.targets()) {

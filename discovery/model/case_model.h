@@ -9,63 +9,19 @@
 
 #include "discovery/case/case.h"
 #include "discovery/model/branch_rows.h"
+#include "discovery/model/hypothesis.h"
+#include "discovery/model/model_fidelity.h"
 #include "discovery/model/noise_model.h"
 #include "discovery/model/nuisances.h"
 #include "discovery/model/record_predictor.h"
+#include "discovery/model/record_subset.h"
 #include "discovery/model/run_memo.h"
 #include "discovery/model/run_store.h"
+#include "discovery/model/target.h"
 #include "discovery/model/unpredictable_rows.h"
 #include "simulation/sampled/command_plan.h"
 
 namespace ambrig {
-
-/// A number that a fit may move: a toleranced rig parameter or a parameter of an effect.
-struct FreeParameter {
-  std::string path;     // "bearings.A.gap"; for effects "effect[k].name"
-  int effect = -1;      // index of the effect, -1: rig parameter
-  std::size_t row = 0;  // row of the effect's table
-  double value = 0, start = 0;
-  double sd = 0;  // prior (rig parameters); 0: none
-  double lo = 0, hi = 0;
-  double step = 0;  // natural size of a change, for differences and scaling
-  bool logarithmic = false;
-};
-
-/// What is believed: the rig file's parameters and effects with values of the free ones.
-struct Hypothesis {
-  RigParameters rig;  // rig.effects holds the effects
-  std::vector<FreeParameter> free;
-
-  /// Toleranced parameters of the rig as free ones, with their prior; without one the parameters of
-  /// formulas and those that an effect of the rig file gives with an sd.
-  static Hypothesis Base(const RigParameters& rig);
-  /// Adds an effect; its parameters become free.
-  void AddEffect(const EffectInstance& effect);
-  void Set(std::size_t parameter, double value);
-  /// Internal coordinate of a parameter: offset over step, or log ratio; and back.
-  double Coordinate(std::size_t parameter) const;
-  /// The coordinate at which the parameter has this value.
-  double CoordinateOf(std::size_t parameter, double value) const;
-  double ValueAt(std::size_t parameter, double coordinate) const;
-};
-
-/// One channel of one record as data of a fit.
-struct Target {
-  std::size_t record = 0, channel = 0;  // into case.records[].data.channels
-  std::size_t first = 0, count = 0;     // rows in the flat vectors
-  double floor = 1;                     // rms that noise alone makes
-  double full_scale = 0;                // rms of the data about its mean
-};
-
-/// How finely the current samples of a switching period are resolved. Differences between two coarse
-/// predictions are sensitivities that err by a few percent, at less cost.
-enum class ModelFidelity { kAsSampled, kCoarse };
-
-/// A prediction of some records only (one flag each): the rows of the others are those of `rest`.
-struct QuickLook {
-  std::vector<char> records;
-  std::vector<double> rest;
-};
 
 /// Runs hypotheses against the records of a case.
 class CaseModel {
@@ -93,11 +49,13 @@ class CaseModel {
   /// predictions only. With a `look`, some records only.
   std::vector<std::optional<std::vector<double>>> PredictAll(
       const std::vector<Hypothesis>& all, ModelFidelity fidelity = ModelFidelity::kAsSampled,
-      const QuickLook* look = nullptr) const;
-  /// Simulated record of one record's scenario, which is over time. `channels`: those wanted; empty: all.
+      const RecordSubset* look = nullptr) const;
+  /// Simulated record of one record's scenario, which is over time. `channels`: those wanted;
+  /// empty: all.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
                    const std::vector<std::string>& channels = {}) const;
-  /// The same with the channels of the data; nullopt: the motion became infinite, this hypothesis cannot be.
+  /// The same with the channels of the data; nullopt: the motion became infinite, this hypothesis
+  /// cannot be.
   std::optional<Record> SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise,
                                           std::uint64_t seed) const;
 
