@@ -94,24 +94,24 @@ double ShareOfAllRecords(const StageRatios& before, const StageRatios& after) {
   return std::min(together, of_unseen + kMostBeyondUnseen);
 }
 
-std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
-                      const ParameterNeed& need, FoundEffect found) {
-  if (found == FoundEffect::kEstablished) return "effect";
+ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base,
+                             const ParameterNeed& need, FoundEffect found) {
+  if (found == FoundEffect::kEstablished) return ExplanationVerdict::kEffect;
   const double after = base.Answered(), before = nominal.Answered();
   // A channel among many may say that the numbers differ: parameters that bring it to the noise are needed.
   constexpr double kShowsInChannel = 1.5, kCured = 0.75;
   const bool channel_needs = nominal.worst_channel > kShowsInChannel &&
                              base.worst_channel < kCured * nominal.worst_channel;
-  if (before < kAgrees * 1.02 && !channel_needs) return "none";
+  if (before < kAgrees * 1.02 && !channel_needs) return ExplanationVerdict::kNone;
   const bool possible = need.largest_shift < kNeverParameter && need.possible &&
                         (need.largest_shift < kDoubtfulShift || need.constant);
-  if (!possible) return "unknown";
-  if (after < kAgrees * 1.05) return "parameters";
+  if (!possible) return ExplanationVerdict::kUnknown;
+  if (after < kAgrees * 1.05) return ExplanationVerdict::kParameters;
   // Parameters explain all but a trace of a large misfit, and nothing else helps.
   if (found == FoundEffect::kNone && after < kGood &&
       ExplainedShare(before, after) > kMostExplained)
-    return "parameters";
-  return "unknown";
+    return ExplanationVerdict::kParameters;
+  return ExplanationVerdict::kUnknown;
 }
 
 }  // namespace ambrig

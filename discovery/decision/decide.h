@@ -1,5 +1,6 @@
 #pragma once
 /// When an effect is believed, and what the verdict is.
+#include "discovery/decision/verdict.h"
 #include "discovery/search/fit.h"
 
 namespace ambrig {
@@ -54,10 +55,10 @@ struct ParameterNeed {
 /// stands.
 enum class FoundEffect { kNone, kDoubtful, kEstablished };
 
-/// "effect", "parameters", "none" or "unknown". Every record counts, fitted or not. An effect that
+/// Effect, parameters, none or unknown. Every record counts, fitted or not. An effect that
 /// was established is named whatever remains; five sd are never parameters, three only where the
 /// records agree on the shift. Parameters that leave a trace are the verdict only where no effect explains it.
-std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
-                      const ParameterNeed& need, FoundEffect found);
+ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base,
+                             const ParameterNeed& need, FoundEffect found);
 
 }  // namespace ambrig

@@ -31,7 +31,7 @@ struct RemainderPlace {
 };
 
 struct Remainder {
-  std::string kind = "none";  // none | law-variation | other
+  RemainderKind kind = RemainderKind::kNone;
   std::vector<RemainderPlace> where;
   std::string text;
 };

@@ -32,7 +32,7 @@ struct Unexplained {
 };
 
 struct Explanation {
-  std::string verdict;                     // effect | parameters | none | unknown | data
+  ExplanationVerdict verdict = ExplanationVerdict::kUnfinished;
   std::vector<RankedEffect> ranking;       // of the first round, best first
   std::vector<RankedEffect> second_round;  // of the last round that found anything or nothing
   std::vector<EffectInstance> adopted;     // established, whatever remains

@@ -60,8 +60,9 @@ Explanation ExplanationReport::Final(const FitResult& as_filed, const FitResult&
 
 void ExplanationReport::AddToVerdict(const FitResult& base, const FitResult& now,
                                      Explanation& out) const {
-  out.parameter_shifts = ParameterShifts((out.verdict == "effect" ? now : base).hypothesis);
-  if (out.verdict == "unknown") {
+  out.parameter_shifts =
+      ParameterShifts((out.verdict == ExplanationVerdict::kEffect ? now : base).hypothesis);
+  if (out.verdict == ExplanationVerdict::kUnknown) {
     // The model may just hold the rotor on the rows that were fitted.
     const FitResult all = models_.AtAllRows(now);
     if (all.Stands())
@@ -69,8 +70,9 @@ void ExplanationReport::AddToVerdict(const FitResult& base, const FitResult& now
     else if (now.Stands())
       out.unexplained = Describe(models_.thinned(), now);
   }
-  if (out.verdict == "none" || out.verdict == "parameters") out.hidden = FindHidden(now);
-  if (out.verdict == "effect" || out.verdict == "unknown")
+  if (out.verdict == ExplanationVerdict::kNone || out.verdict == ExplanationVerdict::kParameters)
+    out.hidden = FindHidden(now);
+  if (out.verdict == ExplanationVerdict::kEffect || out.verdict == ExplanationVerdict::kUnknown)
     out.confusable = FindConfusable(out.ranking);
 }
 

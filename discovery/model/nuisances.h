@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/model/nuisance_group.h"
 #include "discovery/model/stretch_column.h"
 
 namespace ambrig {
@@ -18,9 +19,8 @@ class CaseModel;
 /// A kind of nuisance: "zero of A.x", "logger zero of A.i1", "drift of A.x", "time shift", "input
 /// gain", "current gain of A.i1", "edge of A.i1".
 struct NuisanceKind {
-  // group: sensor-zero | logger-zero | drift | time-shift | input-gain; in all records those of
-  // coil_errors.h
-  std::string name, group;
+  std::string name;
+  NuisanceGroup group = NuisanceGroup::kSensorZero;
   std::string unit;
   double sd = 0;                // prior, in `unit`
   StretchColumn column;         // of one sd, all rows of a model, over the floor
@@ -33,7 +33,8 @@ struct NuisanceFound {
   std::string record;  // its data file; empty: all records
   std::string name, unit;
   double value = 0, sd = 0;
-  std::string group = {}, coil = {};  // as its kind's
+  NuisanceGroup group = NuisanceGroup::kSensorZero;  // as its kind's, and the coil
+  std::string coil = {};
 };
 
 // names of the clock's and of the input's kind

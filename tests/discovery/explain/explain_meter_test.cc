@@ -103,7 +103,7 @@ Complex HalfOrder(double f, double cutoff) { return std::sqrt(Complex(0, f / cut
 TEST(ExplainMeter, ASleeveIsNamedWithItsCutoff) {
   for (const double cutoff : {120.0, 450.0, 6000.0}) {
     const Explanation e = Explained([&](double f) { return Complex(0, f / cutoff); });
-    EXPECT_EQ(e.verdict, "effect") << cutoff;
+    EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect) << cutoff;
     ASSERT_FALSE(e.adopted.empty()) << cutoff;
     EXPECT_EQ(e.adopted[0].name, "eddy-sleeve") << cutoff;
     EXPECT_NEAR(e.adopted[0].Value("cutoff") / cutoff, 1, 0.03);
@@ -115,7 +115,7 @@ TEST(ExplainMeter, ASleeveIsNamedWithItsCutoff) {
 TEST(ExplainMeter, ThickIronIsNamedWithItsCutoff) {
   for (const double cutoff : {20.0, 300.0, 5000.0}) {
     const Explanation e = Explained([&](double f) { return HalfOrder(f, cutoff); });
-    EXPECT_EQ(e.verdict, "effect") << cutoff;
+    EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect) << cutoff;
     ASSERT_FALSE(e.adopted.empty()) << cutoff;
     EXPECT_EQ(e.adopted[0].name, "eddy-currents") << cutoff;
     EXPECT_NEAR(e.adopted[0].Value("cutoff") / cutoff, 1,
@@ -133,7 +133,7 @@ TEST(ExplainMeter, LaminationsKeepTheirThickness) {
     const Complex z = std::sqrt(Complex(0, f / cutoff)) / rho;
     return rho * (z / std::tanh(z) - 1.0);
   });
-  EXPECT_EQ(e.verdict, "effect");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect);
   ASSERT_FALSE(e.adopted.empty());
   EXPECT_EQ(e.adopted[0].name, "eddy-currents");
   // four times the sd that the fit tells
@@ -151,14 +151,14 @@ TEST(ExplainMeter, OtherLawsAreEddyCurrentsToo) {
     const Explanation e = Explained(law);
     ASSERT_FALSE(e.ranking.empty());
     EXPECT_TRUE(e.ranking[0].effect.name.starts_with("eddy-")) << e.ranking[0].effect.name;
-    EXPECT_EQ(e.verdict, "effect");
+    EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect);
   }
 }
 
 // The numbers of the coil are off by up to half of their sd, and nothing else.
 TEST(ExplainMeter, IronWithoutLossesNeedsNoEffect) {
   const Explanation e = Explained([](double) { return Complex(0); });
-  EXPECT_EQ(e.verdict, "parameters");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kParameters);
   EXPECT_TRUE(e.adopted.empty());
 }
 

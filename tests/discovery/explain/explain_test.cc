@@ -24,7 +24,7 @@ std::vector<MeasuredPlace> Places(double gain, double offset = 0) {
 TEST(Explain, MeasurementsOfTheRigAsDrawnNeedNothing) {
   const Case c = MeasuredCase(Places(1));
   const Explanation e = Explain(c, ShortSearch());
-  EXPECT_EQ(e.verdict, "none");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kNone);
   EXPECT_TRUE(e.adopted.empty());
   EXPECT_NEAR(e.nominal_ratio_validate, 1, 0.1);
   ASSERT_FALSE(e.set.empty());
@@ -32,7 +32,7 @@ TEST(Explain, MeasurementsOfTheRigAsDrawnNeedNothing) {
   if (StoredCalibration().cases < kCasesForCalibration) {
     EXPECT_EQ(e.set.size(), 1u);
   }
-  EXPECT_EQ(e.remainder.kind, "none");
+  EXPECT_EQ(e.remainder.kind, RemainderKind::kNone);
   EXPECT_GT(e.runs, 0);
 }
 
@@ -47,7 +47,7 @@ TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
     EXPECT_EQ(so_far.adopted.size(), 1u);
   };
   const Explanation e = Explain(c, o);
-  ASSERT_EQ(e.verdict, "effect");
+  ASSERT_EQ(e.verdict, ExplanationVerdict::kEffect);
   ASSERT_EQ(e.adopted.size(), 1u);
   EXPECT_EQ(e.adopted[0].name, "sensor-offset");
   if (StoredCalibration().cases < kCasesForCalibration) {
@@ -73,7 +73,7 @@ TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
 TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   const Case c = MeasuredCase(Places(1.08));
   const Explanation e = Explain(c, ShortSearch());
-  EXPECT_EQ(e.verdict, "effect");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect);
   ASSERT_EQ(e.adopted.size(), 1u);
   EXPECT_EQ(e.adopted[0].name, "sensor-gain");
   EXPECT_EQ(e.adopted[0].target, "A.x");
@@ -89,7 +89,7 @@ TEST(Explain, AnEffectWithALawOfAnotherFormIsPreferredToZeros) {
   places.insert(places.begin(), more.begin(), more.end());
   for (MeasuredPlace& p : places) p.gain = p.x > 0 ? 1.08 : 1.06;
   const Explanation e = Explain(MeasuredCase(places), ShortSearch());
-  EXPECT_EQ(e.verdict, "effect");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect);
   ASSERT_EQ(e.adopted.size(), 1u);
   EXPECT_EQ(Named(e.adopted[0]), "sensor-gain at A.x");
   EXPECT_NEAR(e.adopted[0].Value("gain"), 1.07, 0.01);
@@ -104,7 +104,7 @@ TEST(Explain, TwoEffectsAreNamedBesideEachOther) {
   o.candidates = 3;
   o.rounds = 2;
   const Explanation e = Explain(c, o);
-  ASSERT_EQ(e.verdict, "effect");
+  ASSERT_EQ(e.verdict, ExplanationVerdict::kEffect);
   ASSERT_EQ(e.adopted.size(), 2u);
   for (const EffectInstance& a : e.adopted)
     EXPECT_TRUE(Named(a) == "sensor-gain at A.x" || Named(a) == "sensor-offset at B.y") << Named(a);
@@ -132,11 +132,11 @@ TEST(Explain, WrongDataThatAnEffectHidAreFoundBesideIt) {
       for (double& v : c.records[0].data.channels[0].samples) v = -v;
     const Explanation e = Explain(c, ShortSearch());
     if (!wrong) {
-      EXPECT_EQ(e.verdict, "effect");
+      EXPECT_EQ(e.verdict, ExplanationVerdict::kEffect);
       EXPECT_TRUE(e.data.empty());
       continue;
     }
-    EXPECT_EQ(e.verdict, "data");
+    EXPECT_EQ(e.verdict, ExplanationVerdict::kData);
     ASSERT_EQ(e.data.size(), 1u);
     EXPECT_EQ(e.data[0].record, c.records[0].data_file);
     EXPECT_EQ(e.data[0].channel, "A.x");
@@ -154,7 +154,7 @@ TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
   const double zeros[] = {3e-6, -5e-6, 4e-6, -2e-6};
   for (std::size_t r = 0; r < places.size(); ++r) places[r].offset = zeros[r % 4];
   const Explanation e = Explain(MeasuredCase(places), ShortSearch());
-  EXPECT_EQ(e.verdict, "parameters");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kParameters);
   EXPECT_TRUE(e.adopted.empty());
   ASSERT_EQ(e.nuisances.size(), 4u);
   for (std::size_t r = 0; r < 4; ++r) {
@@ -170,7 +170,7 @@ TEST(Explain, WrongDataEndTheSearch) {
   for (CaseRecord& r : c.records)
     for (double& v : r.data.channels[0].samples) v *= 1000;
   const Explanation e = Explain(c, ShortSearch());
-  EXPECT_EQ(e.verdict, "data");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kData);
   ASSERT_FALSE(e.data.empty());
   EXPECT_EQ(e.data[0].channel, "A.x");
   EXPECT_TRUE(e.ranking.empty());

@@ -18,7 +18,7 @@ TEST(LateClock, OfOneRecordIsSetRight) {
   const Explanation e = Explain(c, ShortSearch());
   EXPECT_THAT(e.warnings, Contains(HasSubstr("is 1 row late")));
   EXPECT_TRUE(e.adopted.empty());
-  EXPECT_NE(e.verdict, "unknown");
+  EXPECT_NE(e.verdict, ExplanationVerdict::kUnknown);
   EXPECT_LT(e.final_ratio_fit, 1.05);
 }
 

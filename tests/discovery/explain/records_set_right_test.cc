@@ -35,7 +35,7 @@ TEST(InputsOfRecords, AreSimulatedAtTheSizeFound) {
   EXPECT_LT(e.base_ratio_fit, 1.02);
   EXPECT_LT(e.base_ratio_validate, 1.02);
   EXPECT_TRUE(e.adopted.empty());
-  EXPECT_NE(e.verdict, "unknown");
+  EXPECT_NE(e.verdict, ExplanationVerdict::kUnknown);
   const NuisanceFound* pulses = nullptr;
   for (const NuisanceFound& f : e.nuisances)
     if (f.name == kInputGain && f.record == c.records[1].data_file) pulses = &f;
