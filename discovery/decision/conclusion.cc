@@ -7,7 +7,7 @@
 
 #include "discovery/decision/drift_test.h"
 #include "discovery/decision/evidence.h"
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/data/data_gate.h"
+#include "discovery/data_gate/data_gate.h"
 #include "discovery/decision/decide.h"
 #include "discovery/decision/evidence.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/residual.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

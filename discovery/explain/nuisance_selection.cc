@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "discovery/decision/conclusion.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/decision/nuisance_choice.h"
 #include "discovery/model/nuisance_kinds.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/linear_step.h"
 
 namespace ambrig {

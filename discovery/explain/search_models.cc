@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/base/errors.h"
-#include "discovery/data/lonely_rows.h"
-#include "discovery/decision/likelihood.h"
+#include "discovery/data_gate/lonely_rows.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/data/data_gate.h"
+#include "discovery/data_gate/data_gate.h"
 #include "discovery/search/effect_round.h"
 #include "discovery/search/signature_bank.h"
 

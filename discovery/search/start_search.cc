@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/resonance_starts.h"
 #include "discovery/search/worst_records.h"
 

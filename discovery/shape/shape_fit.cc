@@ -7,9 +7,9 @@
 
 #include "core/math/box_solver.h"
 #include "core/math/linear_equations.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/rig_prior.h"
 #include "discovery/search/signature_bank.h"
 

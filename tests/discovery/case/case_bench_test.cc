@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/errors.h"
-#include "discovery/data/bench_tables.h"
+#include "discovery/case/bench_tables.h"
 #include "tests/discovery/bench_case.h"
 
 namespace ambrig {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
-#include "discovery/data/gate_checks.h"
+#include "discovery/data_gate/gate_checks.h"
 #include "discovery/model/case_model.h"
 #include "tests/discovery/bench_case.h"
 

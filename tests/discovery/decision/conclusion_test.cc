@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "discovery/decision/drift_test.h"
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 #include "effects/catalogue.h"
 #include "tests/discovery/linear_case.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
+#include "discovery/search/likelihood.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "discovery/experiment/examination.h"
+#include "discovery/experiment/measured_case.h"
 #include "discovery/model/jacobian.h"
-#include "discovery/practice/examination.h"
-#include "discovery/practice/measured_case.h"
 #include "rig/rig_file.h"
 #include "tests/discovery/linear_case.h"
 
