@@ -15,15 +15,6 @@ constexpr double kDoubtfulShift = 3, kNeverParameter = 5;  // sd
 constexpr double kDetail = 0.02, kMostDetail = 0.1;
 constexpr double kIntegratorsDiffer = 0.015;  // of the squared ratio
 constexpr double kMostExplained = 0.9;        // of the squared error above the floor
-}  // namespace
-
-double ExplainedShare(double before, double after) {
-  if (std::isinf(before)) return std::isinf(after) ? 0 : 1;
-  const double excess = before * before - 1;
-  return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
-}
-
-namespace {
 
 /// What a sum of n squared normal numbers exceeds once in 1000.
 /// Source: E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931).
@@ -78,20 +69,6 @@ bool ClosesAlone(const FitResult& before, const FitResult& after, double score_g
   return after.converged && Believable(after) && std::max(after.ratio_fit, a) < kLeft &&
          b * b - a * a > kIntegratorsDiffer && ExplainedShare(b, a) > kShare &&
          score_gain > kGain && next_gain < kOfNext * score_gain;
-}
-
-double StageRatios::Answered() const { return std::max({fit, validate, worst_record / 1.1}); }
-
-double ShareOfAllRecords(const StageRatios& before, const StageRatios& after) {
-  constexpr double kShows = 1.1;             // ratio from which unseen records have a say
-  constexpr double kMostBeyondUnseen = 0.5;  // of the share on them
-  const auto excess = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
-  const double fit = excess(before.fit), unseen = excess(before.validate),
-               of_fit = ExplainedShare(before.fit, after.fit),
-               of_unseen = ExplainedShare(before.validate, after.validate);
-  if (before.validate <= kShows) return of_fit;
-  const double together = (fit * of_fit + unseen * of_unseen) / (fit + unseen);
-  return std::min(together, of_unseen + kMostBeyondUnseen);
 }
 
 ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base,

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "discovery/decision/decide.h"
 #include "discovery/search/fit.h"
+#include "discovery/search/stage_ratios.h"
 
 namespace ambrig {
 
