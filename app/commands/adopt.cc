@@ -13,7 +13,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
 #include "discovery/case/case_file.h"
-#include "discovery/decision/adopt.h"
+#include "discovery/refine/adopt.h"
 
 namespace ambrig {
 

@@ -18,6 +18,7 @@
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "discovery/explain/explain.h"
 #include "effects/effect.h"
 
 namespace ambrig {
@@ -78,7 +79,7 @@ std::string NamesInLine(const std::vector<std::string>& names) {
 /// What differs from record to record, a line for each; errors of coils in a line for each kind.
 void PrintNuisances(const std::vector<NuisanceFound>& nuisances) {
   constexpr double kSeen = 3;  // sd
-  std::map<std::string, std::string> of_coils;
+  std::map<NuisanceGroup, std::string> of_coils;
   for (const NuisanceFound& n : nuisances) {
     if (std::abs(n.value) < kSeen * n.sd) continue;
     const std::string unit = n.unit == "-" ? "" : " " + n.unit;
@@ -90,13 +91,13 @@ void PrintNuisances(const std::vector<NuisanceFound>& nuisances) {
           fmt::format("  {} in {}: {:.3g} +- {:.2g}{}", n.name, n.record, n.value, n.sd, unit));
     }
   }
-  for (const auto& [kind, line] : of_coils)
-    PrintWrapped(fmt::format("  {} of single coils: {}", kind, line));
+  for (const auto& [group, line] : of_coils)
+    PrintWrapped(fmt::format("  {} of single coils: {}", ToText(group), line));
 }
 
 void PrintFindings(const Explanation& e) {
   for (const DataFault& f : e.data) PrintWrapped("  data: " + FaultText(f));
-  if (e.verdict == "effect")
+  if (e.verdict == ExplanationVerdict::kEffect)
     fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f}\n",
                100 * e.closure.explained, e.closure.floors_before, e.closure.floors_after);
   PrintWrapped("  95 % set: " + SetText(e.set) +
@@ -119,7 +120,7 @@ void PrintFindings(const Explanation& e) {
 
 /// The commands that tell the names apart, where there are several, and that write the first into a rig file.
 void PrintNextCommand(const Explanation& e, const std::string& file) {
-  if (e.verdict != "effect" || e.adopted.empty()) return;
+  if (e.verdict != ExplanationVerdict::kEffect || e.adopted.empty()) return;
   std::string names;
   int count = 0;
   for (const SetMember& m : e.set)
@@ -144,16 +145,19 @@ void PrintExplanation(const Explanation& e, bool unseen) {
     fmt::print("one more effect, after the first was adopted:\n");
     PrintRanking(e.second_round, 3, unseen);
   }
-  fmt::print("verdict: {}\n", Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ||
-                                                          !DoubtText(e).empty()
-                                                      ? "yellow"
-                                                      : "green"));
-  if (const std::string doubt = DoubtText(e); e.verdict == "effect" && !doubt.empty())
+  fmt::print("verdict: {}\n",
+             Coloured(ToText(e.verdict), e.verdict == ExplanationVerdict::kUnknown ||
+                                                 e.verdict == ExplanationVerdict::kData ||
+                                                 !DoubtText(e).empty()
+                                             ? "yellow"
+                                             : "green"));
+  if (const std::string doubt = DoubtText(e);
+      e.verdict == ExplanationVerdict::kEffect && !doubt.empty())
     PrintWrapped("  " + doubt + ": " + AnswerText(e), 4);
   PrintWrapped("  " + e.remainder.text, 2);
   if (const std::string why = WhyNot(e, unseen); !why.empty()) PrintWrapped("  " + why, 2);
   PrintFindings(e);
-  if (e.verdict == "unknown") {
+  if (e.verdict == ExplanationVerdict::kUnknown) {
     PrintWrapped("  " + e.unexplained.text, 2);
     if (!e.unexplained.formula.empty()) {
       fmt::print("  a candidate law for the rig file ([[effect]] name = \"formula\"):\n");
@@ -205,8 +209,7 @@ int RunExplain(const ExplainCommand& o) {
     };
     if (!o.common.json.empty() || Events().open())
       options.checkpoint = [&](const Explanation& partial) {
-        nlohmann::ordered_json j = ExplainJson(partial);
-        j["verdict"] = "unfinished";
+        const nlohmann::ordered_json j = ExplainJson(partial);
         o.common.WriteJson(j);
         Events().Partial(j);
       };

@@ -18,6 +18,7 @@
 #include "core/base/toml_edit.h"
 #include "core/math/constants.h"
 #include "discovery/case/case_file.h"
+#include "discovery/explain/explain.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -74,7 +75,7 @@ Plan PlanOfCase(const PlanCommand& o, const Case& c, const PlanOptions& options)
     if (options.progress) options.progress(0.5 * f, "explain: " + text);
   };
   const Explanation e = Explain(c, explain);
-  if (e.verdict == "data")
+  if (e.verdict == ExplanationVerdict::kData)
     throw InputError(o.file + ": the data are wrong, as `ambrig explain` says; correct them first");
   return PlanForCase(c, NamesLeft(e), options);
 }

@@ -131,7 +131,7 @@ void AddPlainFailure(HtmlReport& report, const ExplainScene& s) {
 }
 
 void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
-  const bool found = s.explanation.verdict == "effect";
+  const bool found = s.explanation.verdict == ExplanationVerdict::kEffect;
   report.Heading(found ? "Evidence for the accepted effect" : "Change by the parameter fit");
   if (!s.usable) return;
   const std::vector<Target> telling = MostTelling(s, 3);

@@ -74,7 +74,7 @@ Json RemainderJson(const Remainder& r) {
   Json where = Json::array();
   for (const RemainderPlace& p : r.where)
     where.push_back({{"record", p.record}, {"channel", p.channel}, {"ratio", Number(p.ratio)}});
-  return {{"kind", r.kind}, {"where", where}, {"text", r.text}};
+  return {{"kind", ToText(r.kind)}, {"where", where}, {"text", r.text}};
 }
 
 Json ClosureJson(const Closure& c) {
@@ -167,7 +167,7 @@ Json ExplainJson(const Explanation& e) {
     screened.push_back({{"effect", e.screened[k].effect.name},
                         {"target", e.screened[k].effect.target},
                         {"ratio_validate", Number(e.screened[k].ratio_validate)}});
-  Json out = {{"verdict", e.verdict},
+  Json out = {{"verdict", ToText(e.verdict)},
               {"ranking", RankingJson(e.ranking)},
               {"judged_beside", e.judged_beside},
               {"adopted", adopted},
@@ -190,7 +190,7 @@ Json ExplainJson(const Explanation& e) {
               {"warnings", e.warnings},
               {"seconds", e.seconds},
               {"simulated_records", e.runs}};
-  if (e.verdict == "unknown")
+  if (e.verdict == ExplanationVerdict::kUnknown)
     out["unexplained"] = {{"block", e.unexplained.block},
                           {"where", e.unexplained.where},
                           {"dependence", e.unexplained.dependence},

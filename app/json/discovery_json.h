@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 
 namespace ambrig {
 

@@ -2,7 +2,7 @@
 /// JSON of the shape of a law; schemas/refine-1.json.
 #include <nlohmann/json.hpp>
 
-#include "discovery/shape/refine.h"
+#include "discovery/refine/refine.h"
 
 namespace ambrig {
 

@@ -41,10 +41,12 @@ std::string ExplanationText(const Explanation& e) {
   for (const SetMember& m : e.set)
     names += fmt::format("{}{} ({:.0f} %)", names.empty() ? "" : ", ",
                          NameAtTarget(m.effect, m.target), 100 * m.probability);
-  if (e.verdict == "effect") return "explained by " + names;
-  if (e.verdict == "none") return "no effect is needed: the rig file explains the record";
-  if (e.verdict == "data") return "the data of the record are wrong";
-  if (e.verdict == "unknown") return "no effect of the catalogue explains it; nearest: " + names;
+  if (e.verdict == ExplanationVerdict::kEffect) return "explained by " + names;
+  if (e.verdict == ExplanationVerdict::kNone)
+    return "no effect is needed: the rig file explains the record";
+  if (e.verdict == ExplanationVerdict::kData) return "the data of the record are wrong";
+  if (e.verdict == ExplanationVerdict::kUnknown)
+    return "no effect of the catalogue explains it; nearest: " + names;
   std::string shifts;
   for (const std::string& s : e.parameter_shifts) shifts += (shifts.empty() ? "" : ", ") + s;
   return "explained by parameters of the rig" + (shifts.empty() ? "" : ": " + shifts);
@@ -112,7 +114,7 @@ Json LeftJson(const std::vector<LeftBand>& left) {
 
 Json WatchExplanationJson(const Explanation& e) {
   const Json all = ExplainJson(e);
-  return {{"verdict", e.verdict},
+  return {{"verdict", ToText(e.verdict)},
           {"set", all["set"]},
           {"adopted", all["adopted"]},
           {"parameter_shifts", e.parameter_shifts},

@@ -2,7 +2,7 @@
 /// JSON of `ambrig watch`: the lines of its journal and its document (docs/guide/watch.md).
 #include <nlohmann/json.hpp>
 
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 #include "discovery/watch/record_state.h"
 
 namespace ambrig {

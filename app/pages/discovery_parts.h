@@ -7,7 +7,7 @@
 #include "app/figures/residual_data.h"
 #include "app/pages/html.h"
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 
 namespace ambrig {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 
 namespace ambrig {
 

@@ -51,10 +51,11 @@ std::string DoubtText(const Explanation& e) {
 }
 
 std::string WhyNot(const Explanation& e, bool unseen) {
-  if (e.ranking.empty() || !e.adopted.empty() || e.verdict == "effect") return "";
+  if (e.ranking.empty() || !e.adopted.empty() || e.verdict == ExplanationVerdict::kEffect)
+    return "";
   const FitResult& best = e.ranking.front().fit;
   const std::string name = EffectName(e.ranking.front().effect);
-  if (e.verdict == "unknown")
+  if (e.verdict == ExplanationVerdict::kUnknown)
     return fmt::format(
         "{} is not adopted: with it {:.2f} times the noise is left{}, which the noise alone does "
         "not make. Its probability counts only the candidates listed.",
@@ -119,22 +120,22 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
 void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen) {
   report.Heading("Verdict");
   const std::string doubt = DoubtText(e);
-  if (e.verdict == "effect")
+  if (e.verdict == ExplanationVerdict::kEffect)
     report.Verdict(doubt.empty() ? Verdict::kOk : Verdict::kWarn,
                    fmt::format("**{}: {}.** {}",
                                doubt.empty() ? "Identified" : "An effect is missing, and " + doubt,
                                AnswerText(e), Evidence(e, unseen)));
-  else if (e.verdict == "data")
+  else if (e.verdict == ExplanationVerdict::kData)
     report.Verdict(
         Verdict::kWarn,
         "**The data are wrong.** Nothing was fitted to them. Apply the corrections listed "
         "below, then run explain again.");
-  else if (e.verdict == "parameters")
+  else if (e.verdict == ExplanationVerdict::kParameters)
     report.Verdict(Verdict::kInfo,
                    "**No effect is missing; the rig's parameters differ from the rig file** within "
                    "their tolerances. " +
                        Evidence(e, unseen));
-  else if (e.verdict == "none")
+  else if (e.verdict == ExplanationVerdict::kNone)
     report.Verdict(
         Verdict::kOk,
         "**Nothing is missing**: the rig file explains the measurements within their noise. " +
@@ -174,7 +175,7 @@ std::string ShortPaths(std::string text, const Case& c) {
 }
 
 void AddUnknown(HtmlReport& report, const Case& c, const Explanation& e) {
-  if (e.verdict != "unknown") return;
+  if (e.verdict != ExplanationVerdict::kUnknown) return;
   const Unexplained& u = e.unexplained;
   report.Heading("Unexplained residual");
   report.Text(u.text.empty() ? "These records allow no further description."
@@ -201,7 +202,7 @@ void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
     next.push_back(fmt::format(
         "These records do not discriminate between **{}** and **{}**. A record that does: {}.",
         p.first, p.second, p.record));
-  if (e.verdict == "effect") {
+  if (e.verdict == ExplanationVerdict::kEffect) {
     if (e.confusable.empty())
       next.push_back("No other candidate is close; no further record is needed to discriminate.");
     for (const EffectInstance& a : e.adopted) {
@@ -221,15 +222,15 @@ void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
           "{}@{}` fits it and writes a new rig file.",
           c.file, e.adopted[0].name, e.adopted[0].target));
   }
-  if (e.verdict == "parameters")
+  if (e.verdict == ExplanationVerdict::kParameters)
     next.push_back("Correct the rig file: the table above says which numbers moved.");
-  if (e.verdict == "none")
+  if (e.verdict == ExplanationVerdict::kNone)
     next.push_back(
         "Nothing needs to be added. To look for smaller effects, measure with more excitation or "
         "for longer.");
-  if (e.verdict == "data")
+  if (e.verdict == ExplanationVerdict::kData)
     next.push_back("Put the lines above into the case file, or repeat the measurement.");
-  if (e.verdict == "unknown")
+  if (e.verdict == ExplanationVerdict::kUnknown)
     next.push_back(
         "Try the law above, or measure a record that isolates the block named above: clamped for "
         "coil and force, slow roll for sensors.");

@@ -69,9 +69,10 @@ void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
                          (shapes ? " *Free shape*: with the shape of its law fitted too "
                                    "(`ambrig refine`); that error counts for the name."
                                  : "") +
-                         (e.verdict == "unknown" ? " No candidate met the acceptance criterion: "
-                                                   "the best one leaves too large a residual."
-                                                 : "")
+                         (e.verdict == ExplanationVerdict::kUnknown
+                              ? " No candidate met the acceptance criterion: "
+                                "the best one leaves too large a residual."
+                              : "")
                    : SecondCaption(e));
 }
 
@@ -91,7 +92,7 @@ void AddRanking(HtmlReport& report, const Explanation& e, bool unseen) {
   report.Heading("Ranked candidates");
   if (e.ranking.empty()) {
     report.Text(
-        e.verdict == "none" || e.verdict == "parameters"
+        e.verdict == ExplanationVerdict::kNone || e.verdict == ExplanationVerdict::kParameters
             ? "None was fitted: nothing was left to explain once the rig parameters were adjusted."
             : "None could be fitted to these records.");
     return;

@@ -17,13 +17,13 @@ bool IsSeen(const NuisanceFound& n) { return std::abs(n.value) > 2 * n.sd; }
 
 /// Errors of the coils, each row of one bearing and kind with the numbers of its coils.
 void AddCoilErrorTable(HtmlReport& report, const std::vector<NuisanceFound>& nuisances) {
-  std::map<std::pair<std::string, std::string>, std::map<int, std::string>> rows;
+  std::map<std::pair<std::string, NuisanceGroup>, std::map<int, std::string>> rows;
   int most = 0;
   for (const NuisanceFound& n : nuisances) {
     const std::size_t at = n.coil.find(".coil");
     if (at == std::string::npos || !IsSeen(n)) continue;
     const int coil = std::stoi(n.coil.substr(at + 5));
-    rows[{n.coil.substr(0, at), n.group}][coil] = n.group == kCoilGain
+    rows[{n.coil.substr(0, at), n.group}][coil] = n.group == NuisanceGroup::kCurrentGain
                                                       ? fmt::format("{:+.2f} %", 100 * n.value)
                                                       : FormatSi(n.value, n.unit, 2);
     most = std::max(most, coil);
@@ -33,7 +33,7 @@ void AddCoilErrorTable(HtmlReport& report, const std::vector<NuisanceFound>& nui
   for (int coil = 1; coil <= most; ++coil) head.push_back(std::to_string(coil));
   std::vector<std::vector<Cell>> cells;
   for (const auto& [of, amounts] : rows) {
-    std::vector<Cell> row = {of.first, of.second};
+    std::vector<Cell> row = {of.first, ToText(of.second)};
     for (int coil = 1; coil <= most; ++coil) {
       const auto found = amounts.find(coil);
       row.push_back(found == amounts.end() ? "–" : found->second);

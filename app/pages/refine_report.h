@@ -2,7 +2,7 @@
 /// The report of `ambrig refine`: the law with its band, where it is supported, and what it changed.
 #include <string>
 
-#include "discovery/shape/refine.h"
+#include "discovery/refine/refine.h"
 
 namespace ambrig {
 

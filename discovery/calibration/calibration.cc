@@ -98,7 +98,8 @@ StatedAnswer StatedAnswerOf(const Explanation& e) {
   }
   // The set leaves "unknown" out where it is improbable; what the names do not have is its own.
   const double rest = std::max(0.0, 1 - names - data);
-  const bool quiet = e.verdict == "none" || e.verdict == "parameters";
+  const bool quiet =
+      e.verdict == ExplanationVerdict::kNone || e.verdict == ExplanationVerdict::kParameters;
   if (!quiet) unknown = rest;
   out.members.push_back({"unknown", "", unknown});
   out.members.push_back({"quiet", "", quiet ? rest - unknown : 0});
@@ -109,7 +110,8 @@ StatedAnswer StatedAnswerOf(const Explanation& e) {
       shift = std::max(shift, std::abs(e.final_fit.hypothesis.Coordinate(k)));
   const auto log_floors = [](double floors) { return std::log(std::max(1.0, floors)); };
   out.features = {1 - e.closure.explained, log_floors(e.closure.floors_after), shift / 3,
-                  log_floors(e.closure.floors_before), e.remainder.kind == "other" ? 1.0 : 0.0};
+                  log_floors(e.closure.floors_before),
+                  e.remainder.kind == RemainderKind::kOther ? 1.0 : 0.0};
   for (double& f : out.features) f = std::isfinite(f) ? std::clamp(f, 0.0, 3.0) : 3.0;
   return out;
 }
@@ -187,7 +189,8 @@ void Calibrate(const CalibrationTable& table, Explanation& e) {
   const StatedAnswer answer = StatedAnswerOf(e);
   const std::vector<double> p = CalibratedProbabilities(table.weights, answer);
   for (std::size_t k = 0; k < e.ranking.size(); ++k) e.ranking[k].probability = p[k];
-  e.set = CalibratedSet(table, answer, e.verdict == "none" ? "none" : "parameters");
+  e.set =
+      CalibratedSet(table, answer, e.verdict == ExplanationVerdict::kNone ? "none" : "parameters");
 }
 
 }  // namespace ambrig

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 
 namespace ambrig {
 

@@ -15,10 +15,11 @@
 #include "core/base/toml_checked.h"
 #include "core/record/channels.h"
 #include "core/record/read_record.h"
-#include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
 #include "discovery/case/case_file.h"
 #include "discovery/case/record_span.h"
+#include "discovery/case/response_record.h"
+#include "discovery/case/static_record.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 

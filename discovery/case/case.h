@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/record/record.h"
-#include "discovery/data/bench_tables.h"
-#include "discovery/data/data_quality.h"
+#include "discovery/case/bench_tables.h"
+#include "discovery/case/data_quality.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/math/linear_equations.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 
@@ -25,7 +25,7 @@ constexpr double kStep = 3;             // of the doubt
 using Group = std::vector<Index>;
 
 std::vector<Group> GroupsOf(const std::vector<NuisanceKind>& kinds) {
-  std::map<std::pair<std::string, std::string>, Group> groups;
+  std::map<std::pair<std::string, NuisanceGroup>, Group> groups;
   for (std::size_t k = 0; k < kinds.size(); ++k)
     groups[{kinds[k].coil.substr(0, kinds[k].coil.find('.')), kinds[k].group}].push_back(
         static_cast<Index>(k));

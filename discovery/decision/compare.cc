@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/data/lonely_rows.h"
+#include "discovery/data_gate/lonely_rows.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/screen.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/data/data_gate.h"
+#include "discovery/data_gate/data_gate.h"
 #include "discovery/model/block_ratios.h"
 #include "discovery/model/residual.h"
 

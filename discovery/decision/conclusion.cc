@@ -7,7 +7,7 @@
 
 #include "discovery/decision/drift_test.h"
 #include "discovery/decision/evidence.h"
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 
@@ -84,9 +84,9 @@ std::string SaidOfUnits(double left, const UnitErrors& of_units) {
 void SayShape(const FitResult& last, Explanation& out) {
   const StageRatios& s = *out.shaped;
   if (std::hypot(s.fit, s.validate) >= std::hypot(last.ratio_fit, last.ratio_validate) ||
-      out.remainder.kind == "none")
+      out.remainder.kind == RemainderKind::kNone)
     return;
-  out.remainder.kind = "law-variation";
+  out.remainder.kind = RemainderKind::kLawVariation;
   const bool several = out.adopted.size() > 1;
   const char* advice = out.RefineFollows() ? ": ambrig refine writes it" : "";
   out.remainder.text = fmt::format(
@@ -99,9 +99,10 @@ void SayShape(const FitResult& last, Explanation& out) {
 /// The members of the set when no effect is named: the verdict itself and the best candidate.
 void SetWithout(Explanation& out, double named) {
   out.judged_beside.clear();
-  out.set = CredibleSet(out.ranking, out.verdict == "unknown" ? named : 0);
+  out.set = CredibleSet(out.ranking, out.verdict == ExplanationVerdict::kUnknown ? named : 0);
   for (SetMember& m : out.set)
-    if (m.effect == "unknown" && out.verdict != "unknown") m.effect = out.verdict;
+    if (m.effect == "unknown" && out.verdict != ExplanationVerdict::kUnknown)
+      m.effect = ToText(out.verdict);
 }
 
 }  // namespace
@@ -140,20 +141,23 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
                           established ? FoundEffect::kEstablished
                           : any       ? FoundEffect::kDoubtful
                                       : FoundEffect::kNone);
-  if (within_units && out.verdict == "unknown") out.verdict = "parameters";
+  if (within_units && out.verdict == ExplanationVerdict::kUnknown)
+    out.verdict = ExplanationVerdict::kParameters;
   if (established)
     SetsWith(out, named);
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
   if (out.closure.floors_after > kNoiseLeft &&
-      ((within_units && out.verdict == "parameters") || (rest_within_units && established)))
-    out.remainder = {"law-variation", {}, SaidOfUnits(out.closure.floors_after, of_units)};
+      ((within_units && out.verdict == ExplanationVerdict::kParameters) ||
+       (rest_within_units && established)))
+    out.remainder = {
+        RemainderKind::kLawVariation, {}, SaidOfUnits(out.closure.floors_after, of_units)};
   if (out.shaped) SayShape(last, out);
 }
 
 void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {
-  out.verdict = "data";
+  out.verdict = ExplanationVerdict::kData;
   double wrong = 0;
   for (const DataFault& f : out.data) wrong = std::max(wrong, f.probability);
   out.set = {{"data", "", wrong}};

@@ -1,6 +1,6 @@
 #pragma once
 /// The verdict and what goes with it, from the stages of a search.
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 #include "discovery/decision/unit_errors.h"
 
 namespace ambrig {

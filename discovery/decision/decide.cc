@@ -15,15 +15,6 @@ constexpr double kDoubtfulShift = 3, kNeverParameter = 5;  // sd
 constexpr double kDetail = 0.02, kMostDetail = 0.1;
 constexpr double kIntegratorsDiffer = 0.015;  // of the squared ratio
 constexpr double kMostExplained = 0.9;        // of the squared error above the floor
-}  // namespace
-
-double ExplainedShare(double before, double after) {
-  if (std::isinf(before)) return std::isinf(after) ? 0 : 1;
-  const double excess = before * before - 1;
-  return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
-}
-
-namespace {
 
 /// What a sum of n squared normal numbers exceeds once in 1000.
 /// Source: E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931).
@@ -80,38 +71,24 @@ bool ClosesAlone(const FitResult& before, const FitResult& after, double score_g
          score_gain > kGain && next_gain < kOfNext * score_gain;
 }
 
-double StageRatios::Answered() const { return std::max({fit, validate, worst_record / 1.1}); }
-
-double ShareOfAllRecords(const StageRatios& before, const StageRatios& after) {
-  constexpr double kShows = 1.1;             // ratio from which unseen records have a say
-  constexpr double kMostBeyondUnseen = 0.5;  // of the share on them
-  const auto excess = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
-  const double fit = excess(before.fit), unseen = excess(before.validate),
-               of_fit = ExplainedShare(before.fit, after.fit),
-               of_unseen = ExplainedShare(before.validate, after.validate);
-  if (before.validate <= kShows) return of_fit;
-  const double together = (fit * of_fit + unseen * of_unseen) / (fit + unseen);
-  return std::min(together, of_unseen + kMostBeyondUnseen);
-}
-
-std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
-                      const ParameterNeed& need, FoundEffect found) {
-  if (found == FoundEffect::kEstablished) return "effect";
+ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base,
+                             const ParameterNeed& need, FoundEffect found) {
+  if (found == FoundEffect::kEstablished) return ExplanationVerdict::kEffect;
   const double after = base.Answered(), before = nominal.Answered();
   // A channel among many may say that the numbers differ: parameters that bring it to the noise are needed.
   constexpr double kShowsInChannel = 1.5, kCured = 0.75;
   const bool channel_needs = nominal.worst_channel > kShowsInChannel &&
                              base.worst_channel < kCured * nominal.worst_channel;
-  if (before < kAgrees * 1.02 && !channel_needs) return "none";
+  if (before < kAgrees * 1.02 && !channel_needs) return ExplanationVerdict::kNone;
   const bool possible = need.largest_shift < kNeverParameter && need.possible &&
                         (need.largest_shift < kDoubtfulShift || need.constant);
-  if (!possible) return "unknown";
-  if (after < kAgrees * 1.05) return "parameters";
+  if (!possible) return ExplanationVerdict::kUnknown;
+  if (after < kAgrees * 1.05) return ExplanationVerdict::kParameters;
   // Parameters explain all but a trace of a large misfit, and nothing else helps.
   if (found == FoundEffect::kNone && after < kGood &&
       ExplainedShare(before, after) > kMostExplained)
-    return "parameters";
-  return "unknown";
+    return ExplanationVerdict::kParameters;
+  return ExplanationVerdict::kUnknown;
 }
 
 }  // namespace ambrig

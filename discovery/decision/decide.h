@@ -1,11 +1,10 @@
 #pragma once
 /// When an effect is believed, and what the verdict is.
+#include "discovery/decision/verdict.h"
 #include "discovery/search/fit.h"
+#include "discovery/search/stage_ratios.h"
 
 namespace ambrig {
-
-/// Share of the error above the floor that a better model removes on unseen records, 0 to 1.
-double ExplainedShare(double ratio_before, double ratio_after);
 
 /// Whether the shifts of the rig parameters are what their sd allow: Σ (shift/sd)² not above 2.2
 /// times their number (of 11, once in a hundred). Above it an effect may hide in an impossible
@@ -30,19 +29,6 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
 bool ClosesAlone(const FitResult& before, const FitResult& after, double score_gain,
                  double next_gain);
 
-/// Errors over the noise of one stage of the search: fitted records, unseen ones, the worst record, the worst channel
-/// of a record.
-struct StageRatios {
-  double fit = 0, validate = 0, worst_record = 0, worst_channel = 0;
-  /// The largest that a verdict has to answer for.
-  double Answered() const;
-};
-
-/// Share of the squared error above the noise that was explained, of fitted and unseen records
-/// together. Unseen records that hardly show an effect count little, but they must not contradict:
-/// the share is at most half above theirs.
-double ShareOfAllRecords(const StageRatios& before, const StageRatios& after);
-
 /// What the rig parameters had to do to explain the records alone.
 struct ParameterNeed {
   double largest_shift = 0;  // of its own sd [-]
@@ -54,10 +40,10 @@ struct ParameterNeed {
 /// stands.
 enum class FoundEffect { kNone, kDoubtful, kEstablished };
 
-/// "effect", "parameters", "none" or "unknown". Every record counts, fitted or not. An effect that
+/// Effect, parameters, none or unknown. Every record counts, fitted or not. An effect that
 /// was established is named whatever remains; five sd are never parameters, three only where the
 /// records agree on the shift. Parameters that leave a trace are the verdict only where no effect explains it.
-std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
-                      const ParameterNeed& need, FoundEffect found);
+ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base,
+                             const ParameterNeed& need, FoundEffect found);
 
 }  // namespace ambrig

@@ -7,7 +7,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/decision/missing_force.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "discovery/search/residual_peaks.h"
 
 namespace ambrig {

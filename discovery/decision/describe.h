@@ -3,7 +3,7 @@
 /// and the record that would tell two fitted models apart, found by simulation.
 #include <string>
 
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 
 namespace ambrig {
 

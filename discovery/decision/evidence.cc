@@ -53,7 +53,7 @@ Remainder RemainderOf(const CaseModel& model, const std::vector<double>& before,
     return out;
   }
   const bool law = any_effect && closure.explained > 0.9 && least_share > 1.0 / 3;
-  out.kind = law ? "law-variation" : "other";
+  out.kind = law ? RemainderKind::kLawVariation : RemainderKind::kOther;
   const std::string worst =
       out.where.empty()
           ? ""

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/decision/verdict.h"
 #include "discovery/search/effect_round.h"
 
 namespace ambrig {
@@ -31,7 +32,7 @@ struct RemainderPlace {
 };
 
 struct Remainder {
-  std::string kind = "none";  // none | law-variation | other
+  RemainderKind kind = RemainderKind::kNone;
   std::vector<RemainderPlace> where;
   std::string text;
 };

@@ -7,7 +7,7 @@
 
 #include "core/math/linear_equations.h"
 #include "core/record/channels.h"
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

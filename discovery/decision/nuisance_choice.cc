@@ -56,7 +56,7 @@ Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::Vecto
 /// Whether most kinds of a group were chosen: what moved the zeros of three sensors from record to record moves the
 /// fourth one's, too.
 bool MostAreChosen(const std::vector<NuisanceKind>& possible,
-                   const std::vector<NuisanceKind>& chosen, const std::string& group) {
+                   const std::vector<NuisanceKind>& chosen, NuisanceGroup group) {
   const auto of_group = [&](const NuisanceKind& k) { return k.group == group; };
   return 2 * std::count_if(chosen.begin(), chosen.end(), of_group) >
          std::count_if(possible.begin(), possible.end(), of_group);
@@ -98,7 +98,8 @@ std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
         continue;
       const Gain g = GainOf(model, kind, left, weight);
       const double price = kPrice + 3 * static_cast<double>(g.records), over = g.gain - price;
-      const bool logger = kind.group == "logger-zero" || kind.group == "drift";
+      const bool logger =
+          kind.group == NuisanceGroup::kLoggerZero || kind.group == NuisanceGroup::kDrift;
       if (over > (logger ? std::max(most, worth) : most) && g.varying > price &&
           (g.spread > kVarying || g.varying > kMuchVarying * weight * left.squaredNorm() ||
            (effects_found && g.gain > kMostOfError * weight * left.squaredNorm()) ||

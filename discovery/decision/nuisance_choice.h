@@ -2,7 +2,7 @@
 /// Which of the usual nuisances a residual asks for: those that explain much and differ from record
 /// to record. What is the same in every record is an effect, and left to the search. Where most of a group differ much (zeros
 /// of the sensors), the others are used, too, if they differ at all.
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "discovery/decision/coil_choice.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/coil_errors.h"
+#include "discovery/model/nuisance_kinds.h"
+#include "discovery/search/likelihood.h"
 #include "simulation/sampled/coil_spread.h"
 
 namespace ambrig {

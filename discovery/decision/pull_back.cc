@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/residual.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 
@@ -107,7 +107,7 @@ class Puller {
     FitResult there = Fit(model_, h, point_);
     if (!there.converged) return false;
     const Eigen::MatrixXd column = best_.fit.jacobian.col(static_cast<Index>(replacement));
-    const QuickLook look = FittedRecords(model_, point_);
+    const RecordSubset look = FittedRecords(model_, point_);
     const Eigen::MatrixXd left = FitGram(model_, look, column, there.residual),
                           was = FitGram(model_, look, column, best_.fit.residual);
     const double correction = (left(0, 1) - was(0, 1)) / left(0, 0);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

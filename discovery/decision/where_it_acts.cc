@@ -30,7 +30,7 @@ struct ChannelSums {
 };
 
 /// Of the error above the noise, from sums of squares.
-double Share(double before, double after, double rows) {
+double ShareOfFall(double before, double after, double rows) {
   return rows > 0 ? ExplainedShare(std::sqrt(before / rows), std::sqrt(after / rows)) : 0;
 }
 
@@ -69,9 +69,9 @@ LocalShare ShareWhereItActs(const CaseModel& model, const FitResult& before,
   LocalShare out;
   if (!(sum.rows[0] > 0)) return out;
   out.before = std::sqrt(sum.before[0] / sum.rows[0]);
-  out.explained = Share(sum.before[0], sum.after[0], sum.rows[0]);
+  out.explained = ShareOfFall(sum.before[0], sum.after[0], sum.rows[0]);
   out.seen_there = sum.rows[1] > 0 && sum.before[1] > kShows * kShows * sum.rows[1];
-  out.unseen = Share(sum.before[1], sum.after[1], sum.rows[1]);
+  out.unseen = ShareOfFall(sum.before[1], sum.after[1], sum.rows[1]);
   return out;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Which block of the model is wrong: each with measured inputs beside its measured outputs.
 #include "discovery/model/blocks.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/math/noise.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 
@@ -21,8 +21,8 @@ constexpr int kToleranceLines = 6, kPoints = 8;
 constexpr double kFirst = -1.75, kApart = 0.5;
 
 /// The records in which branches are sought.
-QuickLook ClampedRecords(const CaseModel& model) {
-  QuickLook look{{}, std::vector<double>(model.size(), 0.0)};
+RecordSubset ClampedRecords(const CaseModel& model) {
+  RecordSubset look{{}, std::vector<double>(model.size(), 0.0)};
   for (const CaseRecord& r : model.data().records)
     look.records.push_back(OverTime(r) && r.scenario.start == StartState::kClamped ? 1 : 0);
   return look;
@@ -87,7 +87,7 @@ double RmsOver(const CaseModel& model, const RowRange& rows, const double* value
 }  // namespace
 
 std::vector<BranchSpan> FindBranches(const CaseModel& model, const Hypothesis& nominal) {
-  const QuickLook look = ClampedRecords(model);
+  const RecordSubset look = ClampedRecords(model);
   std::vector<BranchSpan> out;
   if (nominal.free.empty() || std::ranges::count(look.records, 1) == 0) return out;
   std::vector<char> marks(model.size(), 0);

@@ -7,7 +7,7 @@
 
 #include "core/base/coil_name.h"
 #include "discovery/model/branch_rows.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 #include "discovery/model/residual.h"
 #include "effects/catalogue.h"
 
@@ -22,7 +22,9 @@ constexpr std::size_t kTogether = 8;  // predictions that are in memory together
 
 /// One error of one coil, as an effect of the size of one sd.
 struct CoilError {
-  std::string name, group, unit;
+  std::string name;
+  NuisanceGroup group = NuisanceGroup::kCurrentGain;
+  std::string unit;
   double sd = 0;
   EffectInstance effect;
 };
@@ -43,17 +45,17 @@ void AddErrorsOfCoil(const AmplifierParameters& a, const std::string& bearing, i
                      std::vector<CoilError>& out) {
   const std::string target = CoilName(bearing, coil - 1),
                     channel = fmt::format("{}.i{}", bearing, coil);
-  const auto add = [&](const char* group, const char* unit, double sd, const char* effect,
+  const auto add = [&](NuisanceGroup group, const char* unit, double sd, const char* effect,
                        const char* parameter, double value) {
     EffectInstance e = MakeInstance(EffectNamed(effect), target);
     e.Set(parameter, value);
-    out.push_back({fmt::format("{} of {}", group, channel), group, unit, sd, e});
+    out.push_back({fmt::format("{} of {}", ToText(group), channel), group, unit, sd, e});
   };
   if (a.current_gain_spread > 0)
-    add(kCoilGain, "-", a.current_gain_spread, "current-sensor-gain", "gain",
+    add(NuisanceGroup::kCurrentGain, "-", a.current_gain_spread, "current-sensor-gain", "gain",
         1 + a.current_gain_spread);
   if (a.edge_spread > 0 && VoltsOfEdge(a) > 0)
-    add(kCoilEdge, "s", a.edge_spread, "amplifier-offset", "offset",
+    add(NuisanceGroup::kEdge, "s", a.edge_spread, "amplifier-offset", "offset",
         VoltsOfEdge(a) * a.edge_spread);
 }
 
@@ -119,8 +121,9 @@ void AddCoilErrors(const std::vector<NuisanceFound>& found, RigParameters& rig) 
     for (int coil = 1; coil <= b.coils(); ++coil)
       for (const NuisanceFound& f : found) {
         if (f.coil != CoilName(b.name, coil - 1)) continue;
-        std::vector<double>& all =
-            f.group == kCoilGain ? b.coil_errors.current_gain : b.coil_errors.edge;
+        std::vector<double>& all = f.group == NuisanceGroup::kCurrentGain
+                                       ? b.coil_errors.current_gain
+                                       : b.coil_errors.edge;
         all.resize(static_cast<std::size_t>(b.coils()));
         all[static_cast<std::size_t>(coil - 1)] += f.value;
       }

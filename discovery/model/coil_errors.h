@@ -10,10 +10,6 @@
 
 namespace ambrig {
 
-// groups of their kinds, with which their names begin
-inline constexpr const char* kCoilGain = "current gain";
-inline constexpr const char* kCoilEdge = "edge";
-
 /// A kind of nuisance for each error of each coil, the same in all records; one sd is the spread of the rig file.
 /// The floors of `model` are set. Simulates every record once for each; empty where no spread is stated
 /// or `h` loses the rotor.

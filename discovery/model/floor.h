@@ -1,7 +1,7 @@
 #pragma once
 /// What the measurement noise alone would do to every channel: it goes round the control loop, so
 /// the model is run with noise seeds and compared with its noise-free run.
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

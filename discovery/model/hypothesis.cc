@@ -1,10 +1,10 @@
 // What is believed: the rig's toleranced parameters and the effects' as free numbers.
+#include "discovery/model/hypothesis.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "discovery/model/model.h"
 
 namespace ambrig {
 

@@ -41,7 +41,7 @@ constexpr double kLeastStep = 0.01, kStepOfLost = 0.1;  // of the first one; whe
 constexpr int kTimesLost = 3;
 
 /// rms of the change over the rows of the records looked at, in floors.
-double ChangeOf(const CaseModel& model, const QuickLook* look, const Prediction& here,
+double ChangeOf(const CaseModel& model, const RecordSubset* look, const Prediction& here,
                 const Prediction& moved) {
   double sum = 0, rows = 0;
   for (const Target& t : model.targets()) {
@@ -68,7 +68,7 @@ void FillColumn(const CaseModel& model, const Prediction& here, const Prediction
 
 Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
                          const std::vector<std::size_t>& parameters, double fraction,
-                         const QuickLook* look, DifferenceSides differences) {
+                         const RecordSubset* look, DifferenceSides differences) {
   const std::size_t n = parameters.size(),
                     sides = differences == DifferenceSides::kTwoSided ? 2 : 1;
   std::vector<Hypothesis> moved(sides * n + 1, h);

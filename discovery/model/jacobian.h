@@ -16,7 +16,7 @@ enum class DifferenceSides { kOneSided, kTwoSided };
 /// `look` the rows of its records only; the others are zero.
 Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
                          const std::vector<std::size_t>& parameters, double fraction = 0.3,
-                         const QuickLook* look = nullptr,
+                         const RecordSubset* look = nullptr,
                          DifferenceSides differences = DifferenceSides::kOneSided);
 
 }  // namespace ambrig

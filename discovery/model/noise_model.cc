@@ -10,7 +10,7 @@
 #include "core/record/channels.h"
 #include "discovery/data/held_values.h"
 #include "discovery/data/noise_estimate.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

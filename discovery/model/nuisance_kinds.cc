@@ -1,4 +1,6 @@
 // The columns of the nuisances: what one sd of each does to every row of a case.
+#include "discovery/model/nuisance_kinds.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 #include "core/base/coil_name.h"
 #include "core/record/channels.h"
 #include "discovery/data/input_size.h"
-#include "discovery/model/model.h"
-#include "discovery/model/nuisances.h"
 #include "effects/catalogue.h"
 #include "rig/clearance.h"
 
@@ -80,7 +80,7 @@ class Builder {
     return out;
   }
 
-  NuisanceKind Kind(const std::string& name, const char* group, const std::string& unit,
+  NuisanceKind Kind(const std::string& name, NuisanceGroup group, const std::string& unit,
                     double sd) const {
     return {name, group, unit, sd, StretchColumn(static_cast<Index>(model_.size()))};
   }
@@ -122,13 +122,14 @@ class Builder {
     EffectInstance e = MakeInstance(EffectNamed(effect), target);
     e.Set("offset", sd);
     moved.rig.effects.push_back(e);
-    Simulated(Kind("zero of " + channel, "sensor-zero", unit, sd), model_.Predict(moved));
+    Simulated(Kind("zero of " + channel, NuisanceGroup::kSensorZero, unit, sd),
+              model_.Predict(moved));
   }
 
   /// A zero of the logger alone, and its drift over the record.
   void Logged(const std::string& channel, const std::string& unit, double sd) {
-    NuisanceKind zero = Kind("logger zero of " + channel, "logger-zero", unit, sd),
-                 drift = Kind("drift of " + channel, "drift", unit, sd);
+    NuisanceKind zero = Kind("logger zero of " + channel, NuisanceGroup::kLoggerZero, unit, sd),
+                 drift = Kind("drift of " + channel, NuisanceGroup::kDrift, unit, sd);
     for (const Target& t : model_.targets()) {
       const CaseRecord& r = model_.data().records[t.record];
       if (!OverTime(r) || r.data.channels[t.channel].name != channel) continue;
@@ -143,7 +144,7 @@ class Builder {
 
   /// The record's clock late by `sd`: the prediction's slope.
   void Clock(double sd) {
-    NuisanceKind kind = Kind(kTimeShift, "time-shift", "s", sd);
+    NuisanceKind kind = Kind(kTimeShift, NuisanceGroup::kTimeShift, "s", sd);
     for (const Target& t : model_.targets()) {
       if (!OverTime(model_.data().records[t.record])) continue;
       const double rate = model_.data().records[t.record].data.rate;
@@ -166,7 +167,7 @@ class Builder {
     const Case larger = WithInputs(model_.data(), std::vector<double>(records.size(), sd));
     CaseModel trial(larger);
     trial.stop = model_.stop;
-    Simulated(Kind(kInputGain, "input-gain", "-", sd), trial.Predict(h_));
+    Simulated(Kind(kInputGain, NuisanceGroup::kInputGain, "-", sd), trial.Predict(h_));
   }
 
   const CaseModel& model_;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/math/linear_equations.h"
+#include "discovery/model/case_model.h"
 #include "discovery/model/in_parallel.h"
-#include "discovery/model/model.h"
 
 namespace ambrig {
 

@@ -1,26 +1,26 @@
 #pragma once
-/// What differs without being physics that the model lacks. From record to record: zeros of sensors and
-/// loggers, a slow drift, a shift of the clock, the size of the commanded signals; each is a column over the
-/// rows of one record. From machine to machine: the errors of single coils whose spread the rig file states
-/// (discovery/model/coil_errors.h), the same in all records. The amounts have a Gaussian prior and are
-/// eliminated from every residual and sensitivity alike, so that a fit never has to spend a parameter on them.
+/// What differs without being physics that the model lacks. From record to record: zeros of sensors
+/// and loggers, a slow drift, a shift of the clock, the size of the commanded signals; each is a
+/// column over the rows of one record. From machine to machine: the errors of single coils whose
+/// spread the rig file states (discovery/model/coil_errors.h), the same in all records. The amounts
+/// have a Gaussian prior and are eliminated from every residual and sensitivity alike, so that a
+/// fit never has to spend a parameter on them.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>
 
+#include "discovery/model/nuisance_group.h"
 #include "discovery/model/stretch_column.h"
 
 namespace ambrig {
 
 class CaseModel;
-struct Hypothesis;
-struct RigParameters;
 
-/// A kind of nuisance: "zero of A.x", "logger zero of A.i1", "drift of A.x", "time shift", "input gain",
-/// "current gain of A.i1", "edge of A.i1".
+/// A kind of nuisance: "zero of A.x", "logger zero of A.i1", "drift of A.x", "time shift", "input
+/// gain", "current gain of A.i1", "edge of A.i1".
 struct NuisanceKind {
-  // group: sensor-zero | logger-zero | drift | time-shift | input-gain; in all records those of coil_errors.h
-  std::string name, group;
+  std::string name;
+  NuisanceGroup group = NuisanceGroup::kSensorZero;
   std::string unit;
   double sd = 0;                // prior, in `unit`
   StretchColumn column;         // of one sd, all rows of a model, over the floor
@@ -33,7 +33,8 @@ struct NuisanceFound {
   std::string record;  // its data file; empty: all records
   std::string name, unit;
   double value = 0, sd = 0;
-  std::string group = {}, coil = {};  // as its kind's
+  NuisanceGroup group = NuisanceGroup::kSensorZero;  // as its kind's, and the coil
+  std::string coil = {};
 };
 
 // names of the clock's and of the input's kind
@@ -42,8 +43,9 @@ inline constexpr const char* kInputGain = "input gain";
 
 class Nuisances {
  public:
-  /// `weight`: of a squared error over the floor, per row; `weight_in_all` where the amounts of all records are
-  /// estimated: less beside an effect that is still missing, which would pass for errors of the coils.
+  /// `weight`: of a squared error over the floor, per row; `weight_in_all` where the amounts of all
+  /// records are estimated: less beside an effect that is still missing, which would pass for
+  /// errors of the coils.
   void Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight,
            double weight_in_all);
   void Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight) {
@@ -55,8 +57,8 @@ class Nuisances {
   bool differ() const { return !records_.empty(); }
   /// How many amounts there are that differ from record to record.
   std::size_t count() const;
-  /// Takes off what the nuisances explain. `records`: a flag for each record, the rows of the others are not known; null: of
-  /// none.
+  /// Takes off what the nuisances explain. `records`: a flag for each record, the rows of the
+  /// others are not known; null: of none.
   void Eliminate(double* rows, const std::vector<char>* records = nullptr) const;
   void Eliminate(Eigen::MatrixXd& columns, const std::vector<char>* records = nullptr) const;
   /// The amounts in a residual from which nothing was taken off.
@@ -71,9 +73,10 @@ class Nuisances {
     Eigen::LLT<Eigen::MatrixXd> solve;  // of columns'columns + 1/weight
     std::vector<std::size_t> kinds;     // of the columns
   };
-  /// Amounts that all records share, estimated from the fitted ones. There they are not taken off whole: rows are multiplied
-  /// by the inverse square root of their covariance 1 + weight G G', so that squares of rows hold the price of amounts
-  /// that are unlikely. From unseen records the estimate is taken off.
+  /// Amounts that all records share, estimated from the fitted ones. There they are not taken off
+  /// whole: rows are multiplied by the inverse square root of their covariance 1 + weight G G', so
+  /// that squares of rows hold the price of amounts that are unlikely. From unseen records the
+  /// estimate is taken off.
   struct InAll {
     Eigen::MatrixXd columns;  // G: all rows, of one sd each; the amounts of the records eliminated
     struct Span {
@@ -110,15 +113,6 @@ class Nuisances {
   std::vector<NuisanceKind> kinds_;
   double weight_ = 1, weight_in_all_ = 1;
 };
-
-/// Usual sd of the zero of a channel [its unit]; 0: it has none.
-double UsualZero(const RigParameters& rig, const std::string& channel);
-
-/// Every kind that the records could have, with the sd that the case declares or a usual one.
-/// `model` holds all rows; `predicted` of `h`. Simulates each zero of a sensor inside the loop and
-/// one change of the input's size.
-std::vector<NuisanceKind> NuisanceKindsOf(const CaseModel& model, const Hypothesis& h,
-                                          const std::vector<double>& predicted, bool declared_only);
 
 /// The kinds seen by a model with fewer rows of the same case.
 std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const CaseModel& full,

@@ -1,7 +1,7 @@
 #pragma once
 /// The noise floor of records that are no records over time: frequency responses and tables, whose
 /// values stand over their sd already.
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

@@ -31,7 +31,7 @@ std::string FirstReason(const Case& c) {
 }  // namespace
 
 std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted,
-                             const QuickLook* look) {
+                             const RecordSubset* look) {
   std::vector<double> r = WholeResidual(model, predicted);
   if (model.nuisances.any()) model.nuisances.Eliminate(r.data(), look ? &look->records : nullptr);
   return r;

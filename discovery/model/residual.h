@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 
 /// (measured - predicted)/floor; 0 where a sample does not count. With a `look` its records only were predicted.
 std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted,
-                             const QuickLook* look = nullptr);
+                             const RecordSubset* look = nullptr);
 
 /// The amounts of the nuisances of `model` in what this prediction leaves.
 std::vector<NuisanceFound> AmountsOfNuisances(const CaseModel& model,

@@ -9,7 +9,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
-#include "discovery/data/bench_tables.h"
+#include "discovery/case/bench_tables.h"
 #include "discovery/model/linear_responses.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"

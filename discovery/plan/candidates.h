@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "discovery/experiment/examination.h"
 #include "discovery/plan/abilities.h"
-#include "discovery/practice/examination.h"
 
 namespace ambrig {
 

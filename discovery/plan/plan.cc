@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/decision/prepared_models.h"
+#include "discovery/experiment/measured_case.h"
+#include "discovery/model/nuisance_kinds.h"
 #include "discovery/plan/planner.h"
-#include "discovery/practice/measured_case.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/signature_bank.h"
 #include "discovery/shape/named_law.h"
 #include "effects/usual_size.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "discovery/decision/explain.h"
+#include "discovery/decision/explanation.h"
 #include "discovery/plan/abilities.h"
 #include "discovery/plan/rivals.h"
 

@@ -8,6 +8,7 @@
 #include "core/base/errors.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/floor.h"
+#include "discovery/model/nuisance_kinds.h"
 
 namespace ambrig {
 

@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "core/base/errors.h"
+#include "discovery/experiment/measured_case.h"
+#include "discovery/explain/explain.h"
 #include "discovery/plan/plan.h"
-#include "discovery/practice/measured_case.h"
 #include "effects/effect.h"
 
 namespace ambrig {

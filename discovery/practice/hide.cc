@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/record/channels.h"
+#include "discovery/experiment/measured_case.h"
 #include "discovery/model/floor.h"
 #include "discovery/practice/case_score.h"
 #include "discovery/practice/drawn_truth.h"
-#include "discovery/practice/measured_case.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 
 namespace ambrig {
 

@@ -8,12 +8,12 @@
 #include "core/base/errors.h"
 #include "core/math/noise.h"
 #include "core/record/channels.h"
+#include "discovery/experiment/measured_case.h"
 #include "discovery/model/coil_errors.h"
 #include "discovery/model/floor.h"
 #include "discovery/practice/drawn_truth.h"
 #include "discovery/practice/laws/practice_law.h"
 #include "discovery/practice/loop_margin.h"
-#include "discovery/practice/measured_case.h"
 #include "discovery/practice/mistake_draw.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "effects/catalogue.h"
@@ -31,10 +31,10 @@ constexpr double kMostNoise = 4;  // that laws may make of the noise of a channe
 
 /// Streams of random numbers of one case.
 enum PracticeStream : std::uint32_t {
-  kChoice = 201,
-  kLaw = 210,
-  kMistake = 230,
-  kMistakeSize = 231
+  kChoiceStream = 201,
+  kLawStream = 210,
+  kMistakeStream = 230,
+  kMistakeSizeStream = 231
 };
 
 // 9 one, 2 two, 1 three, 2 unknown, 2 nothing, 4 data
@@ -72,7 +72,7 @@ class PracticeMaker {
       : seed_(seed * 100003 + number * 31 + attempt * 7919),
         number_(number),
         attempt_(attempt),
-        choice_(seed_, kChoice),
+        choice_(seed_, kChoiceStream),
         stop_(stop) {
     out_.name = NameOfPracticeCase(number);
     out_.kind = KindOfPracticeCase(number);
@@ -141,7 +141,7 @@ class PracticeMaker {
       if (b.kind->two_axes && (reach == 1 || c.target.starts_with(b.name))) reach = ClearanceOf(b);
     return {believed_, c.target,
             size,      believed_.rotor.mass * 9.81,
-            reach,     PracticeDraw(seed_, kLaw + static_cast<std::uint32_t>(slot))};
+            reach,     PracticeDraw(seed_, kLawStream + static_cast<std::uint32_t>(slot))};
   }
 
   void HideLaws() {
@@ -195,9 +195,9 @@ class PracticeMaker {
   }
 
   void Mistake() {
-    const Spoiling what = DrawMistake(Ordinal(number_), PracticeDraw(seed_, kMistakeSize));
+    const Spoiling what = DrawMistake(Ordinal(number_), PracticeDraw(seed_, kMistakeSizeStream));
     const std::vector<CaseRecord> sound = out_.data.records;
-    const std::size_t first = PracticeDraw(seed_, kMistake).Of(sound.size());
+    const std::size_t first = PracticeDraw(seed_, kMistakeStream).Of(sound.size());
     for (std::size_t k = 0; k < sound.size(); ++k) {
       const std::size_t record = (first + k) % sound.size();
       try {

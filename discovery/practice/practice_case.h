@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "discovery/experiment/examination.h"
 #include "discovery/practice/case_score.h"
-#include "discovery/practice/examination.h"
 
 namespace ambrig {
 

@@ -75,7 +75,7 @@ PracticeResult ResultOf(const PracticeCase& c, const Explanation& e) {
   PracticeResult r = {c.name,    c.kind, c.rig,      c.noise,   c.nuisances,
                       c.mistake, c.laws, c.families, c.for_fit, c.worst_ratio,
                       c.answer,  {},     {},         {},        ""};
-  r.finding.verdict = e.verdict;
+  r.finding.verdict = ToText(e.verdict);
   if (!e.ranking.empty()) r.finding.first = {e.ranking[0].effect.name, e.ranking[0].effect.target};
   for (const EffectInstance& a : e.adopted) r.finding.adopted.emplace_back(a.name, a.target);
   r.finding.nominal_ratio = e.nominal_ratio_validate;

@@ -7,8 +7,8 @@
 #include "core/base/toml_edit.h"
 #include "core/math/noise.h"
 #include "core/record/channels.h"
+#include "discovery/experiment/measured_case.h"
 #include "discovery/practice/laws/practice_law.h"
-#include "discovery/practice/measured_case.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
@@ -19,7 +19,12 @@ namespace ambrig {
 namespace {
 
 /// Streams of random numbers of one case.
-enum SurroundingStream : std::uint32_t { kSizes = 241, kNoise, kPerRecord, kZeros };
+enum SurroundingStream : std::uint32_t {
+  kNuisanceSizeStream = 241,
+  kNoiseStream,
+  kPerRecordStream,
+  kZeroStream
+};
 
 constexpr double kZeroOfReach = 0.01;    // sd of a position sensor's zero, of the clearance
 constexpr double kInputSpread = 0.01;    // sd of the commanded signals' size
@@ -57,7 +62,7 @@ std::string Quoted(const std::vector<std::string>& texts) {
 }  // namespace
 
 std::string WithOtherSizes(const std::string& text, const std::string& file, std::uint64_t seed) {
-  PracticeDraw draw(seed, kSizes);
+  PracticeDraw draw(seed, kNuisanceSizeStream);
   const double heavier = draw.Log(0.75, 1.35), longer = draw.Log(0.85, 1.2),
                wider = draw.Log(0.9, 1.15);
   const std::pair<const char*, double> factors[] = {
@@ -81,7 +86,7 @@ std::string WithOtherSizes(const std::string& text, const std::string& file, std
 }
 
 Surroundings DrawSurroundings(const RigParameters& rig, std::uint64_t seed) {
-  PracticeDraw draw(seed, kNoise);
+  PracticeDraw draw(seed, kNoiseStream);
   Surroundings s;
   const char* const modes[] = {"stated", "not stated", "wrongly stated"};
   s.noise_mode = modes[draw.Of(3)];
@@ -125,9 +130,9 @@ void SetTrueNoise(const Surroundings& s, RigParameters& truth, Case& data) {
 void FillRecords(const Surroundings& s, const Hypothesis& truth, std::uint64_t seed,
                  const std::atomic<bool>* stop, Case& data) {
   Case commanded = data;  // what the amplifiers made of the commands
-  PracticeDraw draw(seed, kPerRecord);
+  PracticeDraw draw(seed, kPerRecordStream);
   std::uint64_t index = 0;
-  const auto normal = [&] { return Normal(seed, kZeros, index++); };
+  const auto normal = [&] { return Normal(seed, kZeroStream, index++); };
   std::vector<Hypothesis> truths;
   std::vector<int> shift;
   for (CaseRecord& r : commanded.records) {

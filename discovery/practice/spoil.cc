@@ -7,8 +7,8 @@
 
 #include "core/math/noise.h"
 #include "core/record/channels.h"
-#include "discovery/data/data_gate.h"
 #include "discovery/data/noise_estimate.h"
+#include "discovery/data_gate/data_gate.h"
 
 namespace ambrig {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/probes.h"
 #include "discovery/search/start_search.h"
 

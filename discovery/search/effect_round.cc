@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/decide.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/residual_peaks.h"
 
 namespace ambrig {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "discovery/decision/decide.h"
 #include "discovery/search/screen.h"
+#include "discovery/search/stage_ratios.h"
 
 namespace ambrig {
 

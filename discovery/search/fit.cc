@@ -139,7 +139,7 @@ void Fail(FitResult& result) {
 
 /// Prediction, ratios and prior's penalty at the hypothesis of the result; with a `look` of its records
 /// only, which leaves the other ratio without meaning.
-bool EvaluateAtPoint(const CaseModel& model, const QuickLook* look, FitResult& result) {
+bool EvaluateAtPoint(const CaseModel& model, const RecordSubset* look, FitResult& result) {
   const auto predicted = model.PredictAll({result.hypothesis}, ModelFidelity::kAsSampled, look)[0];
   if (!predicted) return false;
   result.predicted = *predicted;

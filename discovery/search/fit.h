@@ -1,7 +1,7 @@
 #pragma once
 /// Maximum-a-posteriori fit of a hypothesis to the fit records: errors over the noise floor, rig
 /// parameters under their Gaussian prior, bounds kept (Ceres, Levenberg-Marquardt). The door to
-/// Ceres. The weight of the errors follows the ratio reached (discovery/decision/likelihood.h) and
+/// Ceres. The weight of the errors follows the ratio reached (discovery/search/likelihood.h) and
 /// is renewed from pass to pass.
 #include <Eigen/Dense>
 #include <string>

@@ -2,15 +2,15 @@
 
 namespace ambrig {
 
-QuickLook FittedRecords(const CaseModel& model, const FitOptions& options) {
+RecordSubset FittedRecords(const CaseModel& model, const FitOptions& options) {
   const std::vector<CaseRecord>& records = model.data().records;
-  QuickLook look{std::vector<char>(records.size(), 0), std::vector<double>(model.size(), 0.0)};
+  RecordSubset look{std::vector<char>(records.size(), 0), std::vector<double>(model.size(), 0.0)};
   for (std::size_t r = 0; r < records.size(); ++r)
     look.records[r] = !records[r].validate && (options.records.empty() || options.records[r]);
   return look;
 }
 
-Eigen::MatrixXd FitGram(const CaseModel& model, const QuickLook& look, const Eigen::MatrixXd& J,
+Eigen::MatrixXd FitGram(const CaseModel& model, const RecordSubset& look, const Eigen::MatrixXd& J,
                         const std::vector<double>& r) {
   const Eigen::Index p = J.cols();
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p + 1, p + 1);

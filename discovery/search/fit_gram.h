@@ -8,10 +8,10 @@
 namespace ambrig {
 
 /// The fitted records, or those of them that the options name: unseen ones are simulated at the end.
-QuickLook FittedRecords(const CaseModel& model, const FitOptions& options);
+RecordSubset FittedRecords(const CaseModel& model, const FitOptions& options);
 
 /// [J r]ᵀ[J r] over the rows of the fit records looked at.
-Eigen::MatrixXd FitGram(const CaseModel& model, const QuickLook& look, const Eigen::MatrixXd& J,
+Eigen::MatrixXd FitGram(const CaseModel& model, const RecordSubset& look, const Eigen::MatrixXd& J,
                         const std::vector<double>& r);
 
 }  // namespace ambrig

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/residual.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/rig_prior.h"
 
 namespace ambrig {
@@ -176,7 +176,7 @@ void FitProblem::HoldAtBounds(
 }
 
 Eigen::MatrixXd FitProblem::Joined(const Eigen::MatrixXd& of_rig, const Hypothesis& h,
-                                   const QuickLook* look) const {
+                                   const RecordSubset* look) const {
   Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.size()), static_cast<Eigen::Index>(p_));
   const auto put = [&J](const std::vector<std::size_t>& at, const Eigen::MatrixXd& columns) {
     for (std::size_t k = 0; k < at.size(); ++k)

@@ -44,7 +44,7 @@ class FitProblem {
 
   double weight() const { return weight_; }
   const CaseModel& model() const { return model_; }
-  const QuickLook& look() const { return look_; }
+  const RecordSubset& look() const { return look_; }
 
  private:
   /// Broyden's rank-one correction of the sensitivities by the step from where they were last used: they then
@@ -63,12 +63,12 @@ class FitProblem {
       const;
   /// The columns of the rig beside those of the effects at `h`.
   Eigen::MatrixXd Joined(const Eigen::MatrixXd& of_rig, const Hypothesis& h,
-                         const QuickLook* look) const;
+                         const RecordSubset* look) const;
 
   const CaseModel& model_;
   const Hypothesis hypothesis_;
   const FitOptions& options_;
-  const QuickLook look_;
+  const RecordSubset look_;
   std::size_t p_;
   double weight_ = 1;
   std::vector<std::size_t> base_, effect_, tuned_;  // tuned: of effects that have a frequency

@@ -13,7 +13,7 @@
 #include <complex>
 #include <vector>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

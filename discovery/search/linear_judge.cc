@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "core/math/linear_equations.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/residual.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/math/linear_equations.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

@@ -1,8 +1,8 @@
 #include "discovery/search/posterior_draws.h"
 
 #include "core/math/noise.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 
 namespace ambrig {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

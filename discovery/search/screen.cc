@@ -6,10 +6,10 @@
 #include "core/base/coil_name.h"
 #include "discovery/model/in_parallel.h"
 #include "discovery/search/free_response.h"
-#include "discovery/search/quick_look.h"
 #include "discovery/search/resonance_estimate.h"
 #include "discovery/search/resonance_starts.h"
 #include "discovery/search/start_search.h"
+#include "discovery/search/worst_records.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {

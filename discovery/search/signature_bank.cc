@@ -63,7 +63,7 @@ Gram RowProducts(const CaseModel& model, const Eigen::MatrixXd& a, const Eigen::
 std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model,
                                                           const Hypothesis& base,
                                                           const std::vector<EffectInstance>& probes,
-                                                          const QuickLook* look) const {
+                                                          const RecordSubset* look) const {
   std::vector<Hypothesis> all;
   for (const EffectInstance& e : probes) {
     all.push_back(base);
@@ -149,9 +149,9 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
   }
 }
 
-void SignatureBank::LookAt(const CaseModel& model, const QuickLook& look) {
+void SignatureBank::LookAt(const CaseModel& model, const RecordSubset& look) {
   if (!look_ && !entries_.empty()) return;  // has all
-  QuickLook missing = look;
+  RecordSubset missing = look;
   bool any = false;
   for (std::size_t r = 0; look_ && r < look.records.size(); ++r) {
     missing.records[r] = look.records[r] && !look_->records[r];
@@ -196,7 +196,7 @@ void SignatureBank::TakeOffNuisances(const CaseModel& model) {
 }
 
 void SignatureBank::Fill(const CaseModel& model, std::size_t begin, std::size_t end,
-                         const QuickLook& look) {
+                         const RecordSubset& look) {
   std::vector<EffectInstance> probes;
   for (std::size_t k = begin; k < end; ++k)
     probes.insert(probes.end(), entries_[k].group.probes.begin(), entries_[k].group.probes.end());

@@ -34,7 +34,7 @@ class SignatureBank {
                 const std::function<void(double, const std::string&)>& progress);
   /// Signatures of the records of `look` only, until more are asked for: what the bank lacks of them
   /// is then simulated.
-  void LookAt(const CaseModel& model, const QuickLook& look);
+  void LookAt(const CaseModel& model, const RecordSubset& look);
   /// Floors have changed from those of `before` (the same targets), and rows may have stopped to count.
   void Rescale(const CaseModel& model, const std::vector<Target>& before);
   /// The model has nuisances since the signatures were taken: what these explain is taken off.
@@ -56,7 +56,7 @@ class SignatureBank {
 
  private:
   /// Fills rows of the look's records into the columns of the entries begin to end, of one base.
-  void Fill(const CaseModel& model, std::size_t begin, std::size_t end, const QuickLook& look);
+  void Fill(const CaseModel& model, std::size_t begin, std::size_t end, const RecordSubset& look);
   /// The columns are others now.
   void ForgetProducts();
   /// Probes with which the rotor is lost, taken again with less of what they move (`rows`: of each probe's table, -1:
@@ -67,10 +67,10 @@ class SignatureBank {
   /// The signature of each probe on one base; empty: the rotor is lost.
   std::vector<std::vector<float>> Signatures(const CaseModel& model, const Hypothesis& base,
                                              const std::vector<EffectInstance>& probes,
-                                             const QuickLook* look) const;
+                                             const RecordSubset* look) const;
 
   std::vector<Entry> entries_;
-  std::optional<QuickLook> look_;
+  std::optional<RecordSubset> look_;
   Eigen::MatrixXf columns_;  // spare columns at the end
   Eigen::Index used_ = 0, multiplied_ = 0;
   Gram products_;

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 

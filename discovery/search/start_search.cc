@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
-#include "discovery/search/quick_look.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/resonance_starts.h"
+#include "discovery/search/worst_records.h"
 
 namespace ambrig {
 

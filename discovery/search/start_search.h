@@ -45,7 +45,7 @@ class StartSearch {
   /// Σ r² less the noise's, of the records looked at.
   double Excess(const std::vector<double>& residual) const;
 
-  QuickLook look_;
+  RecordSubset look_;
   double here_ = 0, excess_ = 0;
   bool beside_others_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// The catalogue's law of a named effect, fitted: where a refinement starts.
-#include "discovery/decision/explain.h"
+#include "discovery/search/fit.h"
 #include "discovery/shape/shape.h"
 
 namespace ambrig {

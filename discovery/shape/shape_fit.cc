@@ -7,9 +7,9 @@
 
 #include "core/math/box_solver.h"
 #include "core/math/linear_equations.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
 #include "discovery/search/fit_gram.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/search/rig_prior.h"
 #include "discovery/search/signature_bank.h"
 
@@ -191,7 +191,7 @@ class ShapeProblem {
   const CaseModel& model_;
   const Shape& shape_;
   double n_, weight_ = 1;
-  const QuickLook look_;  // at the fitted records: the sensitivities need no others
+  const RecordSubset look_;  // at the fitted records: the sensitivities need no others
   Index first_ = 0, all_ = 0;
   Eigen::MatrixXd rig_, gram_;
 };

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "discovery/decision/evidence.h"
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/likelihood.h"
 #include "discovery/shape/named_law.h"
 #include "discovery/shape/shape_fit.h"
 #include "effects/catalogue.h"

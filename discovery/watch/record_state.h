@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "discovery/case/case.h"
-#include "discovery/data/data_gate.h"
+#include "discovery/data_gate/data_gate.h"
 
 namespace ambrig {
 

@@ -112,7 +112,7 @@ class DiscoveryReport : public ::testing::Test {
   /// What Explain would have found, written by hand.
   static Explanation Found() {
     Explanation e;
-    e.verdict = "effect";
+    e.verdict = ExplanationVerdict::kEffect;
     RankedEffect r;
     r.effect = SidePull();
     r.effect.sd[0] = 300;
@@ -212,7 +212,7 @@ TEST_F(DiscoveryReport, ASetOfTwoNamesIsNoIdentification) {
 
 TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
   Explanation e = Found();
-  e.verdict = "unknown";
+  e.verdict = ExplanationVerdict::kUnknown;
   e.adopted.clear();
   e.unexplained = {"rotor or sensor",
                    "plane B, worst at B.y",

@@ -48,7 +48,7 @@ std::string TablesPage(const Add& add) {
 
 TEST(ExplainTables, TheRankingSaysWhatIsAdoptedAndWhatLosesTheRotor) {
   Explanation e;
-  e.verdict = "effect";
+  e.verdict = ExplanationVerdict::kEffect;
   e.base_ratio_validate = 4.75;
   e.ranking = {Ranked(Gain(1.08, 0.002), 0.97, 1.02),
                Ranked(MakeInstance(EffectNamed("sensor-offset"), "A.x"), 0.03, kInfinity)};
@@ -65,7 +65,7 @@ TEST(ExplainTables, TheRankingSaysWhatIsAdoptedAndWhatLosesTheRotor) {
 
 TEST(ExplainTables, ASecondRoundIsCalledOverfittingUnlessItWasTaken) {
   Explanation e;
-  e.verdict = "effect";
+  e.verdict = ExplanationVerdict::kEffect;
   e.ranking = {Ranked(Gain(1.08, 0.002), 1, 1.3)};
   e.second_round = {Ranked(MakeInstance(EffectNamed("sensor-offset"), "A.x"), 1, 1.29)};
   e.adopted = {e.ranking[0].effect};
@@ -79,12 +79,13 @@ TEST(ExplainTables, ASecondRoundIsCalledOverfittingUnlessItWasTaken) {
 
 TEST(ExplainTables, WithoutCandidatesItSaysWhy) {
   Explanation e;
-  const auto words = [&](const char* verdict) {
+  const auto words = [&](ExplanationVerdict verdict) {
     e.verdict = verdict;
     return testing::Words(TablesPage([&](HtmlReport& r) { AddRanking(r, e); }));
   };
-  EXPECT_THAT(words("parameters"), HasSubstr("nothing was left to explain"));
-  EXPECT_THAT(words("unknown"), HasSubstr("None could be fitted to these records."));
+  EXPECT_THAT(words(ExplanationVerdict::kParameters), HasSubstr("nothing was left to explain"));
+  EXPECT_THAT(words(ExplanationVerdict::kUnknown),
+              HasSubstr("None could be fitted to these records."));
 }
 
 TEST(ExplainTables, ScreeningShowsTheFifteenBestAgainstTheErrorWithoutAny) {
@@ -187,13 +188,13 @@ TEST(ExplainText, NamesThatASetLeavesOpen) {
 TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
   Explanation e;
   e.ranking = {Ranked(Gain(1.08, 0.002), 1, 3.5)};
-  e.verdict = "unknown";
+  e.verdict = ExplanationVerdict::kUnknown;
   EXPECT_EQ(WhyNot(e, true),
             "sensor-gain at A.x is not adopted: with it 3.50 times the noise is left on the fitted "
             "and 3.50 on the unseen records, which the noise alone does not make. Its probability "
             "counts only the candidates listed.");
   EXPECT_THAT(WhyNot(e, false), Not(HasSubstr("unseen")));
-  e.verdict = "parameters";
+  e.verdict = ExplanationVerdict::kParameters;
   e.final_ratio_validate = 1.031;
   EXPECT_THAT(
       WhyNot(e, true),
@@ -201,7 +202,7 @@ TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
                 "with it to"));
   e.nuisances.emplace_back();
   EXPECT_THAT(WhyNot(e, true), HasSubstr("tolerances and what differs from record to record"));
-  e.verdict = "effect";
+  e.verdict = ExplanationVerdict::kEffect;
   e.adopted = {e.ranking[0].effect};
   EXPECT_EQ(WhyNot(e, true), "");
 }

@@ -90,7 +90,7 @@ TEST(JsonDocs, Compare) {
 
 TEST(JsonDocs, Explain) {
   Explanation e;
-  e.verdict = "unknown";
+  e.verdict = ExplanationVerdict::kUnknown;
   e.final_fit.hypothesis.free = {
       {.path = "bearings.A.gap", .value = 4.1e-4, .start = 4e-4, .sd = 1e-5}};
   e.final_fit.sd = {4e-6};

@@ -123,7 +123,7 @@ class ExplainJsonTest : public ::testing::Test {
     e_.adopted = {eddy};
     e_.set = {{"eddy-currents", "A", 0.9}, {"unknown", "", 0.1}};
     e_.closure = {0.95, 8, 1.2, 7, 1.1};
-    e_.remainder = {"law-variation", {{"record-1.h5", "A.x", 1.4}}, "words"};
+    e_.remainder = {RemainderKind::kLawVariation, {{"record-1.h5", "A.x", 1.4}}, "words"};
     e_.confusable = {{"eddy-currents", "hysteresis", "a burst"}};
     e_.ladder = {{"", 9, 8}, {"parameters", 8, 7}, {"eddy-currents at A", 1.2, 1.1}};
     e_.hidden = {{"side-pull", "B", "stiffness", "N/m", kInfinity}};
@@ -132,7 +132,7 @@ class ExplainJsonTest : public ::testing::Test {
     c.effect = eddy;
     c.ratio_validate = 1.3;
     e_.screened.assign(30, c);
-    e_.verdict = "effect";
+    e_.verdict = ExplanationVerdict::kEffect;
     e_.runs = 1234;
   }
   Explanation e_;
@@ -193,7 +193,7 @@ TEST_F(ExplainJsonTest, IsValidJsonWhateverTheNumbers) {
 }
 
 TEST_F(ExplainJsonTest, AnUnknownCauseIsDescribed) {
-  e_.verdict = "unknown";
+  e_.verdict = ExplanationVerdict::kUnknown;
   e_.unexplained = {"rotor or sensor", "plane B", "position (linear)", "text", "force", {120, 240}};
   const auto j = ExplainJson(e_);
   EXPECT_EQ(j["unexplained"]["where"], "plane B");

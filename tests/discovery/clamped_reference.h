@@ -8,7 +8,7 @@
 
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "rig/rig_file.h"
 
 namespace ambrig::testing {

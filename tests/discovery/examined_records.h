@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "discovery/data/input_size.h"
-#include "discovery/decision/explain.h"
-#include "discovery/practice/examination.h"
-#include "discovery/practice/measured_case.h"
+#include "discovery/experiment/examination.h"
+#include "discovery/experiment/measured_case.h"
+#include "discovery/explain/explain.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 

@@ -132,7 +132,7 @@ TEST(CalibrationOfNames, SetHoldsWhatReachesTheLeast) {
 // Of an explanation: what the names leave is "unknown"; a quiet verdict has it instead.
 TEST(CalibrationOfNames, MembersOfAnExplanation) {
   Explanation e;
-  e.verdict = "effect";
+  e.verdict = ExplanationVerdict::kEffect;
   e.ranking.resize(1);
   e.ranking[0].effect.name = "saturation";
   e.ranking[0].effect.target = "B";
@@ -146,7 +146,7 @@ TEST(CalibrationOfNames, MembersOfAnExplanation) {
   EXPECT_NEAR(a.members[1].probability, 0.03, 1e-12);
   EXPECT_NEAR(a.features[0], 0.1, 1e-12);
   EXPECT_NEAR(a.features[3], std::log(10.0), 1e-12);
-  e.verdict = "parameters";
+  e.verdict = ExplanationVerdict::kParameters;
   e.ranking[0].probability = 0;
   a = StatedAnswerOf(e);
   EXPECT_EQ(a.members[1].probability, 0);

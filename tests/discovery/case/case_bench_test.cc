@@ -1,12 +1,12 @@
 // What a case says of frequency responses and tables: units, weights, and every mistake in one line.
-#include "discovery/case/case_bench.h"
+#include "discovery/case/response_record.h"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "core/base/errors.h"
-#include "discovery/data/bench_tables.h"
+#include "discovery/case/bench_tables.h"
 #include "tests/discovery/bench_case.h"
 
 namespace ambrig {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/errors.h"
-#include "discovery/data/data_gate.h"
-#include "discovery/model/model.h"
+#include "discovery/data_gate/gate_checks.h"
+#include "discovery/model/case_model.h"
 #include "tests/discovery/bench_case.h"
 
 namespace ambrig {

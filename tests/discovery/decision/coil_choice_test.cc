@@ -21,7 +21,7 @@ class CoilChoice : public ::testing::Test {
     for (Index k = 0; k < kErrors; ++k) {
       Eigen::VectorXd column = Eigen::VectorXd::Zero(Rows());
       column.segment(k * kRowsEach, kRowsEach).setConstant(3);
-      possible_.push_back({fmt::format("error {}", k), "coil-gain", "-", 0.005,
+      possible_.push_back({fmt::format("error {}", k), NuisanceGroup::kCurrentGain, "-", 0.005,
                            StretchColumn(column), true, fmt::format("A.coil{}", k + 1)});
     }
   }

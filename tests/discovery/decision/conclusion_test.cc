@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "discovery/decision/drift_test.h"
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 #include "effects/catalogue.h"
 #include "tests/discovery/linear_case.h"
 
@@ -130,7 +130,7 @@ TEST_F(Conclusion, AnEffectThatClosesTheErrorIsTheVerdict) {
   out.adopted = {LinearCase::Gain(1.08)};
   out.ranking = {Ranked(out.adopted[0], 0.98), Ranked(LinearCase::Offset(1e-6), 0.02)};
   Conclude(case_.model, Leaving(6), Leaving(5), Leaving(1), kNoUnits, out);
-  EXPECT_EQ(out.verdict, "effect");
+  EXPECT_EQ(out.verdict, ExplanationVerdict::kEffect);
   EXPECT_EQ(out.adopted.size(), 1u);
   EXPECT_NEAR(out.closure.explained, 1, 1e-12);
   EXPECT_NEAR(out.closure.floors_before, 5, 1e-12);
@@ -146,10 +146,10 @@ TEST_F(Conclusion, APatchIsWithdrawn) {
   out.adopted = {LinearCase::Gain(1.08)};
   out.ranking = {Ranked(out.adopted[0], 1)};
   Conclude(case_.model, Leaving(6), Leaving(5), Leaving(4.5), kNoUnits, out);
-  EXPECT_EQ(out.verdict, "unknown");
+  EXPECT_EQ(out.verdict, ExplanationVerdict::kUnknown);
   EXPECT_TRUE(out.adopted.empty());
   EXPECT_EQ(out.set[0].effect, "unknown");
-  EXPECT_EQ(out.remainder.kind, "other");
+  EXPECT_EQ(out.remainder.kind, RemainderKind::kOther);
 }
 
 // Two thirds explained by a name without rivals stand; by one that another contests they do not.
@@ -162,7 +162,9 @@ TEST_F(Conclusion, AContestedNameThatLeavesMuchIsWithdrawn) {
                    Ranked(LinearCase::Offset(1e-6), 1 - probability)};
     Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), kNoUnits, out);
     EXPECT_NEAR(out.closure.explained, (25 - 2.7 * 2.7) / 24, 1e-9);
-    EXPECT_EQ(out.verdict, probability > 0.9 ? "effect" : "unknown") << probability;
+    EXPECT_EQ(out.verdict,
+              probability > 0.9 ? ExplanationVerdict::kEffect : ExplanationVerdict::kUnknown)
+        << probability;
     EXPECT_EQ(out.adopted.empty(), probability < 0.9) << probability;
   }
 }
@@ -179,7 +181,8 @@ TEST_F(Conclusion, APullOfTheWrongSignIsWithdrawnWhereMoreThanNoiseStays) {
       out.ranking = {Ranked(pull, 1)};
       Conclude(case_.model, Leaving(6), Leaving(5), Leaving(left), kNoUnits, out);
       const bool withdrawn = stiffness < 0 && left > 1.05;
-      EXPECT_EQ(out.verdict, withdrawn ? "unknown" : "effect") << stiffness << ", " << left;
+      EXPECT_EQ(out.verdict, withdrawn ? ExplanationVerdict::kUnknown : ExplanationVerdict::kEffect)
+          << stiffness << ", " << left;
       EXPECT_EQ(out.adopted.empty(), withdrawn);
     }
 }
@@ -191,7 +194,8 @@ TEST_F(Conclusion, WhatOtherUnitsLeaveTooIsOfTheParameters) {
     Explanation out;
     out.effective_sample_size = kN;
     Conclude(case_.model, Leaving(1.4), Leaving(1.3), Leaving(1.3), Units(units), out);
-    EXPECT_EQ(out.verdict, units > 1.6 ? "parameters" : "unknown");
+    EXPECT_EQ(out.verdict,
+              units > 1.6 ? ExplanationVerdict::kParameters : ExplanationVerdict::kUnknown);
     EXPECT_EQ(out.remainder.text.find("errors of the coils") != std::string::npos, units > 1.6);
   }
 }
@@ -205,7 +209,7 @@ TEST_F(Conclusion, WhatOtherUnitsLeaveTooIsNotLeftUnexplained) {
     out.ranking = {Ranked(out.adopted[0], 0.5), Ranked(LinearCase::Offset(1e-6), 0.5)};
     Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), Units(units), out);
     EXPECT_EQ(out.adopted.size(), units > 3 ? 1U : 0U);
-    EXPECT_EQ(out.verdict, units > 3 ? "effect" : "unknown");
+    EXPECT_EQ(out.verdict, units > 3 ? ExplanationVerdict::kEffect : ExplanationVerdict::kUnknown);
     EXPECT_EQ(out.remainder.text.find("errors of the coils") != std::string::npos, units > 3);
   }
 }
@@ -214,7 +218,7 @@ TEST_F(Conclusion, WithoutAnyMisfitTheSetHoldsNone) {
   Explanation out;
   out.effective_sample_size = kN;
   Conclude(case_.model, Leaving(1), Leaving(1), Leaving(1), kNoUnits, out);
-  EXPECT_EQ(out.verdict, "none");
+  EXPECT_EQ(out.verdict, ExplanationVerdict::kNone);
   ASSERT_EQ(out.set.size(), 1u);
   EXPECT_EQ(out.set[0].effect, "none");
   EXPECT_DOUBLE_EQ(out.set[0].probability, 1);
@@ -226,7 +230,7 @@ TEST_F(Conclusion, WrongDataAreAVerdictOfTheirOwn) {
   f.probability = 0.7;
   out.data = {f};
   ConcludeData(case_.model, Leaving(50), out);
-  EXPECT_EQ(out.verdict, "data");
+  EXPECT_EQ(out.verdict, ExplanationVerdict::kData);
   ASSERT_EQ(out.set.size(), 2u);
   EXPECT_EQ(out.set[0].effect, "data");
   EXPECT_EQ(out.set[1].effect, "unknown");
@@ -242,20 +246,20 @@ TEST_F(Conclusion, TheRemainderNamesTheWorstPlaceAndItsOrigin) {
   const std::vector<double> before = ResidualOf({20, 20, 20, 20}), after = ResidualOf({2, 2, 4, 2});
   const Closure closure = ClosureOf(case_.model, before, after);
   const Remainder law = RemainderOf(case_.model, before, after, closure, true);
-  EXPECT_EQ(law.kind, "law-variation");
+  EXPECT_EQ(law.kind, RemainderKind::kLawVariation);
   ASSERT_EQ(law.where.size(), 4u);
   EXPECT_EQ(law.where[0].record, "at 6e-05 m");
   EXPECT_EQ(law.where[0].channel, "A.x");
   EXPECT_DOUBLE_EQ(law.where[0].ratio, 4);
-  EXPECT_EQ(RemainderOf(case_.model, before, after, closure, false).kind, "other");
+  EXPECT_EQ(RemainderOf(case_.model, before, after, closure, false).kind, RemainderKind::kOther);
   const std::vector<double> patch = ResidualOf({1, 1, 18, 1});
   EXPECT_EQ(
       RemainderOf(case_.model, before, patch, ClosureOf(case_.model, before, patch), true).kind,
-      "other");
+      RemainderKind::kOther);
   const std::vector<double> floor = ResidualOf({1, 1, 1, 1});
   const Remainder nothing =
       RemainderOf(case_.model, before, floor, ClosureOf(case_.model, before, floor), true);
-  EXPECT_EQ(nothing.kind, "none");
+  EXPECT_EQ(nothing.kind, RemainderKind::kNone);
   EXPECT_TRUE(nothing.where.empty());
 }
 

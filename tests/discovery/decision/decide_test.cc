@@ -145,44 +145,54 @@ TEST(StageRatios, TheWorstRecordCountsWithSomeAllowance) {
 
 TEST(VerdictOf, NothingIsMissingBelowSevenPercent) {
   const ParameterNeed none;
-  EXPECT_EQ(VerdictOf({1.0, 1.07, 1}, {1, 1, 1}, none, FoundEffect::kNone), "none");
-  EXPECT_EQ(VerdictOf({1.0, 1.08, 1}, {1, 1, 1}, none, FoundEffect::kNone), "parameters");
+  EXPECT_EQ(VerdictOf({1.0, 1.07, 1}, {1, 1, 1}, none, FoundEffect::kNone),
+            ExplanationVerdict::kNone);
+  EXPECT_EQ(VerdictOf({1.0, 1.08, 1}, {1, 1, 1}, none, FoundEffect::kNone),
+            ExplanationVerdict::kParameters);
 }
 
 // One channel of many that the parameters bring to the noise.
 TEST(VerdictOf, AChannelMayNeedTheParameters) {
   const ParameterNeed none;
   EXPECT_EQ(VerdictOf({1.06, 1.05, 1.1, 2.2}, {1.01, 1.01, 1.05, 1.1}, none, FoundEffect::kNone),
-            "parameters");
+            ExplanationVerdict::kParameters);
   EXPECT_EQ(VerdictOf({1.06, 1.05, 1.1, 2.2}, {1.06, 1.05, 1.1, 2.1}, none, FoundEffect::kNone),
-            "none");
+            ExplanationVerdict::kNone);
   EXPECT_EQ(VerdictOf({1.0, 1.0, 1.0, 1.2}, {0.99, 0.99, 1.0, 1.0}, none, FoundEffect::kNone),
-            "none");
+            ExplanationVerdict::kNone);
 }
 
 TEST(VerdictOf, ImpossibleParametersAreUnknownWhateverTheyExplain) {
   const StageRatios before = {4, 4, 4}, after = {1, 1, 1};
-  EXPECT_EQ(VerdictOf(before, after, {4.9, true, true}, FoundEffect::kNone), "parameters");
-  EXPECT_EQ(VerdictOf(before, after, {5.0, true, true}, FoundEffect::kNone), "unknown");
-  EXPECT_EQ(VerdictOf(before, after, {1, false, true}, FoundEffect::kNone), "unknown");
-  EXPECT_EQ(VerdictOf(before, after, {2.9, true, false}, FoundEffect::kNone), "parameters");
-  EXPECT_EQ(VerdictOf(before, after, {3.0, true, false}, FoundEffect::kNone), "unknown");
+  EXPECT_EQ(VerdictOf(before, after, {4.9, true, true}, FoundEffect::kNone),
+            ExplanationVerdict::kParameters);
+  EXPECT_EQ(VerdictOf(before, after, {5.0, true, true}, FoundEffect::kNone),
+            ExplanationVerdict::kUnknown);
+  EXPECT_EQ(VerdictOf(before, after, {1, false, true}, FoundEffect::kNone),
+            ExplanationVerdict::kUnknown);
+  EXPECT_EQ(VerdictOf(before, after, {2.9, true, false}, FoundEffect::kNone),
+            ExplanationVerdict::kParameters);
+  EXPECT_EQ(VerdictOf(before, after, {3.0, true, false}, FoundEffect::kNone),
+            ExplanationVerdict::kUnknown);
 }
 
 TEST(VerdictOf, ATraceOfALargeMisfitMayStay) {
   const ParameterNeed none;
-  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, FoundEffect::kNone), "parameters");
-  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.6, 1.6, 1.6}, none, FoundEffect::kNone), "unknown");
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, FoundEffect::kNone),
+            ExplanationVerdict::kParameters);
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.6, 1.6, 1.6}, none, FoundEffect::kNone),
+            ExplanationVerdict::kUnknown);
   EXPECT_EQ(VerdictOf({2, 2, 2}, {1.4, 1.4, 1.4}, none, FoundEffect::kNone),
-            "unknown");  // no trace of it
+            ExplanationVerdict::kUnknown);  // no trace of it
 }
 
 // An effect that explains what stays says that something is missing, though its name is in doubt.
 TEST(VerdictOf, WhatAnEffectExplainsIsNoTrace) {
   const ParameterNeed none;
-  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, FoundEffect::kDoubtful), "unknown");
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, FoundEffect::kDoubtful),
+            ExplanationVerdict::kUnknown);
   EXPECT_EQ(VerdictOf({20, 20, 20}, {1.05, 1.05, 1.05}, none, FoundEffect::kDoubtful),
-            "parameters");
+            ExplanationVerdict::kParameters);
 }
 
 // Squared errors above the noise of 99 and 3: the fitted records hold nearly all of it.

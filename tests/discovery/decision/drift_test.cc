@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
+#include "discovery/search/likelihood.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {

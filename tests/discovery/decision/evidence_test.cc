@@ -134,14 +134,15 @@ TEST(DriftTest, ConstantHoldsAndDriftingDoesNot) {
 TEST(Verdict, EveryRecordCountsAndFiveSdAreNoParameter) {
   const StageRatios clean = {1.0, 1.01, 1.02}, wrong = {9.5, 1.0, 40}, mid = {4, 4, 6};
   const ParameterNeed fine, far = {5.5, true, true}, drifting = {3.5, true, false};
-  EXPECT_EQ(VerdictOf(clean, clean, fine, FoundEffect::kNone), "none");
+  EXPECT_EQ(VerdictOf(clean, clean, fine, FoundEffect::kNone), ExplanationVerdict::kNone);
   // a FIT record at 9.5 floors is not nothing
-  EXPECT_EQ(VerdictOf(wrong, wrong, fine, FoundEffect::kNone), "unknown");
-  EXPECT_EQ(VerdictOf(mid, clean, fine, FoundEffect::kNone), "parameters");
-  EXPECT_EQ(VerdictOf(mid, clean, far, FoundEffect::kNone), "unknown");
-  EXPECT_EQ(VerdictOf(mid, clean, drifting, FoundEffect::kNone), "unknown");
-  EXPECT_EQ(VerdictOf(mid, clean, {3.5, true, true}, FoundEffect::kNone), "parameters");
-  EXPECT_EQ(VerdictOf(mid, mid, fine, FoundEffect::kEstablished), "effect");
+  EXPECT_EQ(VerdictOf(wrong, wrong, fine, FoundEffect::kNone), ExplanationVerdict::kUnknown);
+  EXPECT_EQ(VerdictOf(mid, clean, fine, FoundEffect::kNone), ExplanationVerdict::kParameters);
+  EXPECT_EQ(VerdictOf(mid, clean, far, FoundEffect::kNone), ExplanationVerdict::kUnknown);
+  EXPECT_EQ(VerdictOf(mid, clean, drifting, FoundEffect::kNone), ExplanationVerdict::kUnknown);
+  EXPECT_EQ(VerdictOf(mid, clean, {3.5, true, true}, FoundEffect::kNone),
+            ExplanationVerdict::kParameters);
+  EXPECT_EQ(VerdictOf(mid, mid, fine, FoundEffect::kEstablished), ExplanationVerdict::kEffect);
 }
 
 }  // namespace

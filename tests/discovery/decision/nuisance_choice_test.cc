@@ -18,7 +18,7 @@ class NuisanceChoiceTest : public ::testing::Test {
   NuisanceKind Zero(std::size_t channel, double size = 10) const {
     NuisanceKind k;
     k.name = channel == 0 ? "zero of A.x" : "zero of A.y";
-    k.group = "sensor-zero";
+    k.group = NuisanceGroup::kSensorZero;
     k.unit = "m";
     k.sd = size * LinearCase::kFloor;
     k.column = StretchColumn(static_cast<Index>(case_.model.size()));
@@ -176,7 +176,7 @@ TEST_F(NuisanceChoiceTest, APreciseRecordDoesNotDecideAlone) {
 // There are many columns that only a logger sees: one has to explain a part of what is left.
 TEST_F(NuisanceChoiceTest, ALoggersZeroIsTakenOnlyForAPartOfTheError) {
   NuisanceKind logged = Zero(0);
-  logged.group = "logger-zero";
+  logged.group = NuisanceGroup::kLoggerZero;
   std::vector<double> left = Offsets({1.5, -1.5, 1.2, -1.4});
   EXPECT_EQ(ChooseNuisances(case_.model, {logged}, left, kWeight).size(), 1u);
   for (const Target& t : case_.model.targets())  // beside an error that is larger by far

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/likelihood.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {

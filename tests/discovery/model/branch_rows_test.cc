@@ -8,11 +8,11 @@
 #include <string>
 
 #include "core/math/noise.h"
+#include "discovery/experiment/examination.h"
 #include "discovery/model/floor.h"
 #include "discovery/model/residual.h"
-#include "discovery/practice/examination.h"
 #include "rig/rig_file.h"
-#include "tests/discovery/data/gate_case.h"
+#include "tests/discovery/data_gate/gate_case.h"
 #include "tests/discovery/measured_case.h"
 
 namespace ambrig {

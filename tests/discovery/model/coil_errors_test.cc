@@ -8,9 +8,9 @@
 
 #include "actuators/electronics/amplifier_parameters.h"
 #include "discovery/decision/compare.h"
-#include "discovery/decision/explain.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/decision/unit_errors.h"
+#include "discovery/explain/explain.h"
 #include "discovery/model/residual.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "effects/catalogue.h"
@@ -76,7 +76,7 @@ TEST_F(CoilErrorsTest, ExplainThemInTheVerdict) {
   ExplainOptions options;
   options.calibrate = false;
   const Explanation e = Explain(data_, options);
-  EXPECT_EQ(e.verdict, "parameters");
+  EXPECT_EQ(e.verdict, ExplanationVerdict::kParameters);
   EXPECT_TRUE(e.adopted.empty());
   EXPECT_GT(e.nominal_ratio_validate, 1.2);
   EXPECT_LT(e.final_ratio_validate - 1, 0.4 * (e.nominal_ratio_validate - 1));
@@ -110,10 +110,11 @@ class CoilErrorsFound : public testing::ClampedReference {};
 TEST_F(CoilErrorsFound, AreAddedToTheirBearing) {
   RigParameters rig = rig_;
   rig.bearings[1].coil_errors.current_gain = {0, 0.001, 0, 0, 0, 0, 0, 0};
-  AddCoilErrors({{"", "current gain of B.i2", "-", 0.002, 1e-4, kCoilGain, "B.coil2"},
-                 {"", "edge of A.i8", "s", 3e-8, 1e-9, kCoilEdge, "A.coil8"},
-                 {"r.h5", "zero of A.x", "m", 1e-6, 1e-8, "sensor-zero", ""}},
-                rig);
+  AddCoilErrors(
+      {{"", "current gain of B.i2", "-", 0.002, 1e-4, NuisanceGroup::kCurrentGain, "B.coil2"},
+       {"", "edge of A.i8", "s", 3e-8, 1e-9, NuisanceGroup::kEdge, "A.coil8"},
+       {"r.h5", "zero of A.x", "m", 1e-6, 1e-8, NuisanceGroup::kSensorZero, ""}},
+      rig);
   EXPECT_DOUBLE_EQ(rig.bearings[1].coil_errors.current_gain[1], 0.003);
   EXPECT_TRUE(rig.bearings[1].coil_errors.edge.empty());
   EXPECT_EQ(rig.bearings[0].coil_errors.edge, (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 3e-8}));

@@ -3,7 +3,7 @@
 
 #include "discovery/model/floor.h"
 #include "discovery/model/noise_model.h"
-#include "tests/discovery/data/gate_case.h"
+#include "tests/discovery/data_gate/gate_case.h"
 
 namespace ambrig {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "discovery/model/model.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
+#include "discovery/model/case_model.h"
 #include "effects/catalogue.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"

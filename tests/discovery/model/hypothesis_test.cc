@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 #include "tests/effects/effect_rigs.h"
 
 namespace ambrig {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 #include "tests/discovery/linear_case.h"
 #include "tests/discovery/measured_case.h"
 

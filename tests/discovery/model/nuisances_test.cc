@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "discovery/model/nuisance_kinds.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -30,7 +31,8 @@ class NuisanceTest : public ::testing::Test {
   const CaseModel& model() const { return linear_.model; }
   /// A zero of A.x with an sd of 2 µm, two floors of 1 µm.
   NuisanceKind Zero() const {
-    return {"zero of A.x", "sensor-zero", "m", 2e-6, StretchColumn(RowsOfAx(model(), -1, 2))};
+    return {"zero of A.x", NuisanceGroup::kSensorZero, "m", 2e-6,
+            StretchColumn(RowsOfAx(model(), -1, 2))};
   }
   /// The same zero in all records, their amounts weighed by `w`.
   Nuisances OneZeroOfAll(double w) const {
@@ -104,7 +106,7 @@ TEST_F(NuisanceTest, EliminationIsLinear) {
 TEST_F(NuisanceTest, ARecordThatDoesNotFeelAKindHasNoAmountOfIt) {
   NuisanceKind first_only = Zero();
   first_only.column = StretchColumn(RowsOfAx(model(), 0, 2));
-  NuisanceKind feeble{"drift of A.x", "drift", "m", 1e-12,
+  NuisanceKind feeble{"drift of A.x", NuisanceGroup::kDrift, "m", 1e-12,
                       StretchColumn(RowsOfAx(model(), -1, 1e-6))};
   Nuisances nuisances;
   nuisances.Use(model(), {first_only, feeble}, 1);
@@ -250,7 +252,7 @@ TEST_F(NuisanceTest, DeclaredOnesAloneAreTheirs) {
   // none declared: every channel has a usual one, and the clock
   bool clock = false, y = false;
   for (const NuisanceKind& k : NuisanceKindsOf(this->model(), h, *predicted, false)) {
-    clock = clock || k.group == "time-shift";
+    clock = clock || k.group == NuisanceGroup::kTimeShift;
     y = y || k.name.find("A.y") != std::string::npos;
     EXPECT_GT(k.sd, 0) << k.name;
   }

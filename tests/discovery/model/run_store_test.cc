@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "core/base/errors.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 
 namespace ambrig {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/noise.h"
-#include "discovery/model/model.h"
+#include "discovery/model/case_model.h"
 #include "tests/discovery/measured_case.h"
 
 namespace ambrig {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "discovery/experiment/examination.h"
 #include "discovery/plan/safety.h"
-#include "discovery/practice/examination.h"
 #include "tests/discovery/linear_case.h"
 #include "tests/effects/effect_rigs.h"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "core/base/read_file.h"
-#include "discovery/decision/explain.h"
+#include "discovery/explain/explain.h"
 #include "discovery/practice/case_score.h"
 #include "discovery/practice/practice_case.h"
 #include "discovery/practice/practice_result.h"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/search/effect_round.h"
+#include "discovery/search/likelihood.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
+#include "discovery/search/likelihood.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -109,7 +109,7 @@ TEST(Jacobian, AStepThatMovesMuchIsTakenSmaller) {
 TEST(Jacobian, OfSomeRecordsLeavesTheOthersZero) {
   const LinearCase c = CaseOf(1, 0);
   const Hypothesis h = c.With({LinearCase::Gain(1.02)});
-  const QuickLook look{{0, 1, 0, 0}, std::vector<double>(c.model.size(), 0.0)};
+  const RecordSubset look{{0, 1, 0, 0}, std::vector<double>(c.model.size(), 0.0)};
   const Eigen::MatrixXd all = Jacobian(c.model, h, {0}),
                         some = Jacobian(c.model, h, {0}, 0.3, &look);
   for (const Target& t : c.model.targets()) {

@@ -7,7 +7,7 @@
 
 #include "core/math/noise.h"
 #include "core/record/channels.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "effects/catalogue.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"

@@ -8,7 +8,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/noise.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "core/math/constants.h"
+#include "discovery/experiment/examination.h"
 #include "discovery/model/record_rows.h"
-#include "discovery/practice/examination.h"
 #include "discovery/search/resonance_starts.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"

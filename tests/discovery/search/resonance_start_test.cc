@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/screen.h"
 #include "discovery/search/start_search.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/base/read_file.h"
-#include "discovery/decision/adopt.h"
 #include "discovery/decision/compare.h"
+#include "discovery/refine/adopt.h"
 #include "discovery/search/fit.h"
 #include "rig/rig_assembly.h"
 #include "rotor/shaft/shaft_parameters.h"

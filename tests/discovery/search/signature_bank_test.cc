@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "discovery/experiment/examination.h"
+#include "discovery/experiment/measured_case.h"
 #include "discovery/model/jacobian.h"
-#include "discovery/practice/examination.h"
-#include "discovery/practice/measured_case.h"
 #include "rig/rig_file.h"
 #include "tests/discovery/linear_case.h"
 
@@ -92,7 +92,7 @@ TEST(SignatureBank, NuisancesComeOffAfterwardsAsWhileSimulated) {
   SignatureBank later, at_once;
   later.Simulate(c.model, base, groups, nullptr);
   const Gram bare = later.Products(c.model);
-  NuisanceKind zero{"zero of A.x", "sensor-zero", "m", 1e-6, StretchColumn()};
+  NuisanceKind zero{"zero of A.x", NuisanceGroup::kSensorZero, "m", 1e-6, StretchColumn()};
   zero.column = StretchColumn(static_cast<Eigen::Index>(c.model.size()));
   for (const Target& t : c.model.targets())
     if (t.channel == 0)

@@ -1,7 +1,7 @@
 #pragma once
 /// Bearing A held off centre, four of its coils ramped: currents and forces tell the law of its iron.
 #include "core/math/noise.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "effects/catalogue.h"
 #include "tests/effects/effect_rigs.h"
 

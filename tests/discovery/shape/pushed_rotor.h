@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/math/noise.h"
-#include "discovery/practice/examination.h"
+#include "discovery/experiment/examination.h"
 #include "tests/effects/effect_rigs.h"
 
 namespace ambrig {

@@ -1,0 +1,207 @@
+// The controller's own program as a witness of its record: what no effect of the rig can change.
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/record/channels.h"
+#include "discovery/data/noise_estimate.h"
+#include "discovery/data_gate/gate_checks.h"
+#include "discovery/data_gate/gate_columns.h"
+#include "discovery/data_gate/gate_shifts.h"
+#include "discovery/model/controller_block.h"
+#include "discovery/model/record_traits.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kCurrentFloor = 1e-4;     // [A], of a control current
+constexpr double kOfMovement = 0.03;       // of the command's movement: rounding of the record
+constexpr double kUndone = 0.1;            // of the error that the right hypothesis may leave
+constexpr double kOfInputNuisances = 0.3;  // of it that a clock and an input's size may leave
+constexpr long kMostInputRows = 4;         // by which the fits shift the clock of an input
+constexpr double kLeastClock = 5e-4;       // [s]: more is found in all columns of the record
+constexpr double kMostInputGain = 1.6;     // that the fits give an input, or its inverse
+constexpr double kLongestLag = 0.05;       // [s]
+
+bool DrivesController(const std::string& channel) {
+  return IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint);
+}
+
+BridgedRecord ControllerRecord(const Record& data) {
+  return BridgeMissing(data, kLoopsSettle, DrivesController);
+}
+
+bool IsWrong(const ControllerAxis& a) {
+  return a.rms > kGrossError * kCurrentFloor && a.rms > kOfMovement * a.movement;
+}
+
+/// Whether the program of the rig file is the one that computed the set-points: an axis of the case that moves agrees.
+bool ProgramIsRight(const CaseModel& model) {
+  return std::ranges::any_of(model.data().records, [&](const CaseRecord& r) {
+    if (!OverTime(r) || !HasControllerBlock(model.data().rig, r.scenario, r.data)) return false;
+    const auto axes = ControllerAxes(model.data().rig, r.scenario, ControllerRecord(r.data));
+    return std::ranges::any_of(axes, [](const ControllerAxis& a) {
+      return a.movement > 2 * kGrossError * kCurrentFloor && !IsWrong(a);
+    });
+  });
+}
+
+/// The errors of all axes, rows that count only [A].
+Eigen::VectorXd CountedErrors(const std::vector<ControllerAxis>& axes) {
+  std::vector<double> out;
+  for (const ControllerAxis& a : axes)
+    for (std::size_t k = 0; k < a.error.size(); ++k)
+      if (a.counts[k]) out.push_back(a.error[k]);
+  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
+}
+
+/// The size and the clock of the commands that leave the least error.
+struct InputFit {
+  double gain = 1;  // of what the scenario commands [-]
+  double late = 0;  // [rows]
+  double left = 1;  // share of the error that remains
+};
+
+/// The error with commands `late` rows later that have the best size: it is linear in the size.
+class InputTrial {
+ public:
+  InputTrial(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data)
+      : rig_(rig), scenario_(scenario), data_(data) {
+    Scenario silent = scenario;
+    silent.excitations.clear();
+    without_ = CountedErrors(ControllerAxes(rig, silent, data));
+    before_ = (without_ + AnswerTo(0)).norm();
+  }
+  InputFit Late(double rows) const {
+    const Eigen::VectorXd answer = AnswerTo(rows);
+    const double square = answer.squaredNorm();
+    const double gain = square > 0 ? -answer.dot(without_) / square : 1;
+    return {gain, rows, (without_ + gain * answer).norm() / before_};
+  }
+
+ private:
+  Eigen::VectorXd AnswerTo(double late) const {
+    return CountedErrors(ControllerAxes(rig_, scenario_, data_, late)) - without_;
+  }
+  const RigParameters& rig_;
+  const Scenario& scenario_;
+  const BridgedRecord& data_;
+  Eigen::VectorXd without_;
+  double before_ = 0;
+};
+
+/// Whole rows, then parts of a row: steps on rows and between them move at other instants.
+InputFit FitInput(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data) {
+  const InputTrial trial(rig, scenario, data);
+  const long most = std::max(kMostInputRows, std::lround(kLeastClock * data.record.rate));
+  InputFit best;
+  const auto try_late = [&](double rows) {
+    const InputFit fit = trial.Late(rows);
+    if (fit.left < best.left) best = fit;
+  };
+  for (long late = -most; late <= most; ++late) try_late(static_cast<double>(late));
+  for (const double step : {0.5, 0.25, 0.125}) {
+    const double middle = best.late;
+    try_late(middle - step);
+    try_late(middle + step);
+  }
+  return best;
+}
+
+/// Rows by which the reading of an axis is late; 0: no lag brings its set-points back.
+long LagOfReading(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data,
+                  const ControllerAxis& axis) {
+  const std::vector<double>& y = data.record.Find(axis.axis)->samples;
+  const auto rows = static_cast<long>(y.size());
+  const long most = std::min(rows / 4, std::lround(kLongestLag * data.record.rate));
+  BridgedRecord moved = data;
+  std::erase_if(moved.record.channels, [&](const Channel& c) {  // the axis of its bearing alone
+    const auto id = ParseChannel(c.name), own = ParseChannel(axis.axis);
+    return !id || !own || id->plane != own->plane;
+  });
+  long best = 0;
+  double least = kUndone * axis.rms;
+  for (long late = -most; late <= most; ++late) {
+    for (Channel& c : moved.record.channels)
+      if (c.name == axis.axis)
+        for (long k = 0; k < rows; ++k)
+          c.samples[static_cast<std::size_t>(k)] =
+              y[static_cast<std::size_t>(std::clamp(k + late, 0L, rows - 1))];
+    for (const ControllerAxis& a : ControllerAxes(rig, scenario, moved))
+      if (a.axis == axis.axis && a.rms < least) least = a.rms, best = late;
+  }
+  return best;
+}
+
+/// Whether the error enters as a command does: a wrong reading would carry the noise of its sensor into it.
+bool IsCommand(const BridgedRecord& data, const ControllerAxis& a) {
+  constexpr double kOfNoise = 0.1;
+  const std::vector<double>& y = data.record.Find(a.axis)->samples;
+  const double noise = WhiteNoiseOf(y.data(), a.counts.data(), a.counts.size());
+  return WhiteNoiseOf(a.reference.data(), a.counts.data(), a.counts.size()) < kOfNoise * noise;
+}
+
+/// "A.x was commanded up to 32.5 um (1.6 N) otherwise, first at 0.026 s".
+std::string CommandText(const RigParameters& rig, const Record& data, const ControllerAxis& a) {
+  constexpr double kOfLargest = 0.1;
+  double largest = 0;
+  for (std::size_t k = 0; k < a.reference.size(); ++k)
+    if (a.counts[k]) largest = std::max(largest, std::abs(a.reference[k]));
+  std::size_t first = 0;
+  while (!a.counts[first] || std::abs(a.reference[first]) < kOfLargest * largest) ++first;
+  double kp = 0;
+  for (const BearingParameters& b : rig.bearings)
+    if (std::ranges::count(b.Axes(), a.axis)) kp = PidOf(rig, b).kp;
+  return fmt::format(
+      "the controller was commanded otherwise at {}, by up to {:.3g} um or {:.3g} N, "
+      "first at {:.4g} s",
+      a.axis, 1e6 * largest, std::abs(kp) * largest, data.TimeAt(first));
+}
+
+/// Commands that were late by more, or of another size, than the fits allow for each record.
+void TellInput(const CaseRecord& r, const InputFit& fit, std::vector<DataFault>& out) {
+  if (std::abs(std::log(std::max(fit.gain, 1e-9))) > std::log(kMostInputGain)) {
+    DataFault f = FaultLeaving(r, "", "scenario", fit.left);
+    f.detail = fmt::format("its commands were {:.4g} times what the scenario says", fit.gain);
+    TellScenario(f, out);
+  } else if (std::abs(fit.late) > static_cast<double>(kMostInputRows)) {
+    out.push_back(TimeFault(r, "", {fit.late / r.data.rate, 0, fit.left, true}));
+  }
+}
+
+}  // namespace
+
+void CheckController(const CaseModel& model, std::size_t record,
+                     const std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  const RigParameters& rig = model.data().rig;
+  const bool explained = std::ranges::any_of(columns, &GateColumn::explained);
+  if (!out.empty() || explained || !r.scenario.faults.empty()) return;
+  if (!HasControllerBlock(rig, r.scenario, r.data)) return;
+  const BridgedRecord data = ControllerRecord(r.data);
+  const std::vector<ControllerAxis> axes = ControllerAxes(rig, r.scenario, data);
+  std::vector<const ControllerAxis*> wrong;
+  for (const ControllerAxis& a : axes)
+    if (IsWrong(a)) wrong.push_back(&a);
+  if (wrong.empty() || !ProgramIsRight(model)) return;
+  if (const InputFit fit = FitInput(rig, r.scenario, data); fit.left < kOfInputNuisances) {
+    TellInput(r, fit, out);
+    return;
+  }
+  const auto worst = *std::ranges::max_element(wrong, {}, [](auto* a) { return a->rms; });
+  if (std::ranges::all_of(wrong, [&](const auto* a) { return IsCommand(data, *a); })) {
+    DataFault f = FaultLeaving(r, "", "scenario", kUndone);
+    f.detail = CommandText(rig, r.data, *worst);
+    TellScenario(f, out);
+    return;
+  }
+  for (const ControllerAxis* a : wrong)
+    if (const long late = LagOfReading(rig, r.scenario, data, *a); late != 0)
+      out.push_back(
+          TimeFault(r, a->axis, {static_cast<double>(late) / data.record.rate, 0, kUndone, true}));
+}
+
+}  // namespace ambrig

@@ -1,0 +1,32 @@
+#include "discovery/explain/explain.h"
+
+#include <optional>
+
+#include "discovery/calibration/calibration.h"
+#include "discovery/explain/explanation_search.h"
+#include "discovery/explain/record_corrections.h"
+
+namespace ambrig {
+
+Explanation Explain(const Case& c, const ExplainOptions& options) {
+  ExplainOptions now = options;
+  RecordCorrections all;
+  Explanation e;
+  std::optional<Case> corrected;
+  for (bool again = true; again;) {
+    if (all.any()) corrected = Corrected(c, all);
+    ExplanationSearch search(corrected ? *corrected : c, now);
+    e = search.Run();
+    const RecordCorrections& found = search.corrections();
+    again = found.any();
+    if (!found.rows_late.empty()) now.clocks = false;
+    if (!found.inputs_larger.empty()) --now.inputs;
+    all.Add(found);
+  }
+  ReportCorrections(c, all, e);
+  const CalibrationTable& table = StoredCalibration();
+  if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
+  return e;
+}
+
+}  // namespace ambrig

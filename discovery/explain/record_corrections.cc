@@ -1,0 +1,106 @@
+#include "discovery/explain/record_corrections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "discovery/data/clock_shift.h"
+#include "discovery/data/input_size.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr long kMostRows = 4;  // by which a clock may be off; more is a matter of the data gate
+
+}  // namespace
+
+void RecordCorrections::Add(const RecordCorrections& found) {
+  if (!found.rows_late.empty()) rows_late = found.rows_late;
+  inputs_larger.resize(std::max(inputs_larger.size(), found.inputs_larger.size()), 0);
+  for (std::size_t r = 0; r < found.inputs_larger.size(); ++r)
+    inputs_larger[r] = (1 + inputs_larger[r]) * (1 + found.inputs_larger[r]) - 1;
+}
+
+Case Corrected(const Case& c, const RecordCorrections& corrections) {
+  return WithInputs(WithClocks(c, corrections.rows_late), corrections.inputs_larger);
+}
+
+void ReportCorrections(const Case& c, const RecordCorrections& corrections, Explanation& e) {
+  const std::vector<int>& late = corrections.rows_late;
+  const std::vector<double>& larger = corrections.inputs_larger;
+  for (std::size_t r = 0; r < late.size(); ++r)
+    if (late[r] != 0)
+      e.warnings.push_back(fmt::format(
+          "the clock of {} is {} row{} {}: its rows are moved", c.records[r].data_file,
+          std::abs(late[r]), std::abs(late[r]) == 1 ? "" : "s", late[r] > 0 ? "late" : "early"));
+  for (std::size_t r = 0; r < larger.size(); ++r) {
+    bool told = larger[r] == 0;
+    for (NuisanceFound& f : e.nuisances)
+      if (f.name == kInputGain && f.record == c.records[r].data_file) {
+        f.value = (1 + larger[r]) * (1 + f.value) - 1;
+        told = true;
+      }
+    if (!told)
+      e.warnings.push_back(fmt::format(
+          "the commands of {} are {:.2f} % {} than its scenario says: they are simulated so",
+          c.records[r].data_file, 100 * std::abs(larger[r]), larger[r] > 0 ? "larger" : "smaller"));
+  }
+}
+
+std::optional<std::vector<int>> LateRows(const Case& c, const std::vector<NuisanceFound>& found) {
+  std::vector<int> rows(c.records.size(), 0);
+  bool some = false, all = true;
+  for (const NuisanceFound& f : found) {
+    if (f.name != kTimeShift) continue;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const CaseRecord& record = c.records[r];
+      if (record.data_file != f.record) continue;
+      const long late = std::lround(f.value * record.data.rate);
+      rows[r] = std::abs(late) <= kMostRows ? static_cast<int>(late) : 0;
+      some = some || rows[r] != 0;
+      all = all && rows[r] == rows[0];
+    }
+  }
+  if (!some || all) return {};
+  return rows;
+}
+
+// Pulses that an amplifier's voltage limits, or that move the instants at which its limiter lets
+// go, do not grow in proportion to their set-points: a column of one slope leaves floors of error
+// there. They stay free about the sizes found where the case declares them uncertain, or where they
+// still differ.
+std::optional<std::vector<double>> LargerInputs(const SearchModels& models,
+                                                const std::vector<NuisanceKind>& of_records,
+                                                const FitResult& base) {
+  constexpr double kKnown = 0.1;     // of the prior's sd: the records tell the size, not the prior
+  constexpr double kLeastGain = 10;  // of the score
+  const auto kind = std::ranges::find(of_records, std::string(kInputGain), &NuisanceKind::name);
+  if (kind == of_records.end()) return {};
+  const std::vector<CaseRecord>& records = models.data().records;
+  std::vector<double> larger(records.size(), 0);
+  for (const NuisanceFound& f : AmountsOfNuisances(models.thinned(), base.predicted))
+    for (std::size_t r = 0; r < records.size(); ++r)
+      if (f.name == kInputGain && f.record == records[r].data_file && f.sd < kKnown * kind->sd)
+        larger[r] = f.value;
+  const Case changed = WithInputs(models.data(), larger);
+  const CaseModel& full = models.full();
+  CaseModel trial(changed);
+  trial.stop = full.stop;
+  trial.LimitAs(full);
+  const auto predicted = trial.Predict(base.hypothesis);
+  full.runs += trial.runs;
+  if (!predicted) return {};
+  FitResult by_slope = models.AtAllRows(base), simulated = by_slope;
+  if (!by_slope.Stands()) return {};
+  simulated.residual = Residual(full, *predicted);
+  simulated.ratio_fit = Ratio(full, simulated.residual, Which::kFit);
+  simulated.ratio_validate = Ratio(full, simulated.residual, Which::kValidate);
+  if (models.Gain(by_slope, simulated) < kLeastGain) return {};
+  return larger;
+}
+
+}  // namespace ambrig

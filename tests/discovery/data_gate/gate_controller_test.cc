@@ -1,0 +1,108 @@
+// The controller's program as a witness: commands that are not the scenario's, readings and commands that come late.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "discovery/data_gate/gate_checks.h"
+#include "discovery/data_gate/gate_columns.h"
+#include "tests/discovery/data_gate/gate_case.h"
+
+namespace ambrig {
+namespace {
+
+using testing::kStepRecord;
+using testing::Measured;
+using testing::RadialRig;
+using testing::RecordNamed;
+
+/// Faults that the controller's program alone shows in the step record.
+std::vector<DataFault> ControllerFaults(const Case& c) {
+  std::vector<DataFault> out;
+  CheckController(CaseModel(c), RecordNamed(c, kStepRecord), {}, out);
+  return out;
+}
+
+/// The case whose step record was commanded otherwise than its scenario file says.
+Case CommandedOtherwise(const std::function<void(Excitation&)>& change) {
+  Case c = Measured({}, 0, "multisine at 60 Hz");
+  Scenario& scenario = c.records[RecordNamed(c, kStepRecord)].scenario;
+  const Scenario written = scenario;
+  for (Excitation& e : scenario.excitations) change(e);
+  Hypothesis truth;
+  truth.rig = RadialRig();
+  c = testing::MeasuredBy(truth, c);
+  c.records[RecordNamed(c, kStepRecord)].scenario = written;
+  return c;
+}
+
+void ShiftColumn(Case& c, const std::string& channel, std::size_t rows) {
+  std::vector<double>& y = testing::SamplesOf(c, kStepRecord, channel);
+  for (std::size_t k = y.size(); k-- > 0;) y[k] = y[k > rows ? k - rows : 0];
+}
+
+TEST(GateController, AgreesWithItsOwnRecordWhateverThePlantDoes) {
+  const EffectInstance gain = MakeInstance(EffectNamed("sensor-gain"), "A.x");
+  EffectInstance strong = gain;
+  strong.values[0] = 1.2;
+  EXPECT_TRUE(ControllerFaults(Measured({strong})).empty());
+}
+
+TEST(GateController, CommandsOfAnotherAxisAreOfAnotherScenario) {
+  const Case c = CommandedOtherwise([](Excitation& e) {
+    if (e.target == "A.x") e.target = "B.y";
+  });
+  const std::vector<DataFault> faults = ControllerFaults(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "scenario");
+  EXPECT_EQ(faults[0].channel, "");
+  EXPECT_NE(faults[0].detail.find("commanded otherwise at"), std::string::npos);
+  EXPECT_NE(FaultText(faults[0]).find(faults[0].detail), std::string::npos);
+}
+
+TEST(GateController, CommandsOfAnotherSizeAreOfAnotherScenarioBeyondWhatFitsAllow) {
+  const auto sized = [](double gain) {
+    return ControllerFaults(CommandedOtherwise([&](Excitation& e) { e.amplitude *= gain; }));
+  };
+  for (const DataFault& f : sized(1.1)) ADD_FAILURE() << FaultText(f);
+  for (const double gain : {2.5, -1.0}) {
+    const std::vector<DataFault> faults = sized(gain);
+    ASSERT_EQ(faults.size(), 1U) << gain;
+    EXPECT_EQ(faults[0].fault, "scenario");
+  }
+}
+
+TEST(GateController, CommandsThatAreLateAreTheClockOfTheRecord) {
+  const auto late = [](double rows) {
+    return ControllerFaults(CommandedOtherwise([&](Excitation& e) {
+      e.start += rows / RadialRig().controller.rate;
+      e.stop += rows / RadialRig().controller.rate;
+    }));
+  };
+  for (const DataFault& f : late(2.4)) ADD_FAILURE() << FaultText(f);  // the fits give as much
+  const std::vector<DataFault> faults = late(6);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "lag");
+  EXPECT_EQ(faults[0].channel, "");
+  EXPECT_NEAR(faults[0].seconds, 6 / RadialRig().controller.rate, 1e-5);
+}
+
+TEST(GateController, AReadingThatIsLateByFewRowsIsNamed) {
+  Case c = Measured();
+  ShiftColumn(c, "A.x", 5);
+  const std::vector<DataFault> faults = ControllerFaults(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "lag");
+  EXPECT_EQ(faults[0].channel, "A.x");
+  EXPECT_NEAR(faults[0].seconds, 5 / RadialRig().controller.rate, 1e-9);
+}
+
+// A controller that is another one than the rig file's disagrees with every axis of every record.
+TEST(GateController, AnotherControllerIsNoFaultOfTheData) {
+  Case c = Measured({}, 0, "multisine at 60 Hz");
+  c.rig.controller.pid.kp *= 1.4;
+  EXPECT_TRUE(ControllerFaults(c).empty());
+}
+
+}  // namespace
+}  // namespace ambrig

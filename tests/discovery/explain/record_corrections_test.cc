@@ -1,0 +1,67 @@
+// Corrections of records from amounts that are written down.
+#include "discovery/explain/record_corrections.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// Clocks late by these numbers of rows of the records at 12.5 kHz.
+std::vector<NuisanceFound> ShiftsOf(const Case& c, const std::vector<double>& rows) {
+  std::vector<NuisanceFound> found;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    found.push_back({c.records[r].data_file, kTimeShift, "s", rows[r] / 12500, 0});
+  return found;
+}
+
+TEST(LateRows, AreRoundedToWholeOnes) {
+  const Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
+  const auto rows = LateRows(c, ShiftsOf(c, {0.1, 1.8, -1.2}));
+  ASSERT_TRUE(rows.has_value());
+  EXPECT_THAT(*rows, ElementsAre(0, 2, -1));
+}
+
+TEST(LateRows, ADelayOfTheRigIsTheSameInAllRecords) {
+  const Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
+  EXPECT_FALSE(LateRows(c, ShiftsOf(c, {2, 2.1, 1.9})).has_value());
+  EXPECT_FALSE(LateRows(c, ShiftsOf(c, {0.2, -0.3, 0.4})).has_value());
+}
+
+// More is a matter of the data gate.
+TEST(LateRows, MoreThanFourAreNotMoved) {
+  const Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
+  const auto rows = LateRows(c, ShiftsOf(c, {0, 4, 5}));
+  ASSERT_TRUE(rows.has_value());
+  EXPECT_THAT(*rows, ElementsAre(0, 4, 0));
+}
+
+TEST(RecordCorrections, SizesOfInputsMultiplyAndClocksAreTheLastOnes) {
+  RecordCorrections all;
+  EXPECT_FALSE(all.any());
+  all.Add({{0, 1}, {}});
+  all.Add({{}, {0.1, 0}});
+  all.Add({{}, {0.2, -0.5}});
+  EXPECT_THAT(all.rows_late, ElementsAre(0, 1));
+  EXPECT_NEAR(all.inputs_larger[0], 1.1 * 1.2 - 1, 1e-15);
+  EXPECT_NEAR(all.inputs_larger[1], -0.5, 1e-15);
+}
+
+TEST(ReportCorrections, AddsToTheSizeFoundOrWarns) {
+  const Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
+  Explanation e;
+  e.nuisances = {{c.records[0].data_file, kInputGain, "-", 0.01, 0.001}};
+  ReportCorrections(c, {{0, -1, 0}, {0.1, 0, -0.02}}, e);
+  EXPECT_NEAR(e.nuisances[0].value, 1.1 * 1.01 - 1, 1e-15);
+  ASSERT_THAT(e.warnings, SizeIs(2));
+  EXPECT_THAT(e.warnings[0], HasSubstr("the clock of at 2e-05 m is 1 row early"));
+  EXPECT_THAT(e.warnings[1], HasSubstr("the commands of at 3e-05 m are 2.00 % smaller"));
+}
+
+}  // namespace
+}  // namespace ambrig
