@@ -7,22 +7,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
-constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
-constexpr int kAfterProbe = 8;                                      // periods
-constexpr double kDeadIdle = 0.75;   // -c of a coil without current that is asked for none
-constexpr double kAsked = 0.24;      // [A] set-point from which a coil is asked for current
-constexpr double kRangeOfNoise = 8;  // sd: of the readings of a winding whose current does not move
-constexpr double kStill = 0.25;      // of the range of its partner's
-constexpr double kMostWider = 1.25, kSpare = 1.02;  // of the commissioned range of flux
-constexpr int kWiderPeriods = 250;
-constexpr double kSudden = 0.15;  // c of one period, as a coil leaves its range
-constexpr double kOverHealthy =
-    2;  // the same over the largest c that healthy running made of one period
-constexpr double kBounces = 10e-3;  // [s] after a contact: its currents follow no set-point
-
-double PeriodOf(const SamplingSettings& s) { return s.samples * s.step; }
+constexpr int kAfterProbe = 8, kAfterShare = 25;                    // periods
 
 }  // namespace
 
@@ -33,266 +19,162 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       settings_{setup.settings.current_noise, setup.settings.adc_limit},
       gap_(setup.model.gap_offset[0]),
       filter_(setup.model, setup.settings.sampling, commissioned.circuit),
-      windows_(setup.model),
+      bands_(setup.model, commissioned),
+      ratios_(setup.model, commissioned),
+      range_(setup.model, commissioned),
+      currents_(setup.model, setup.settings.sampling, setup.settings.current_noise),
+      drift_(setup.model, setup.settings.sampling, commissioned.usable()),
       jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
-  for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
-  SetBands();
+  for (int j = 0; j < setup.model.coils; ++j) turns_.share[j] = 1;
+}
+
+void CommissionedDetector::SetTurns(int coil, double share) {
+  if (share == 0) ratios_.Leave(coil);
+  TakeShare(coil, share);
+}
+
+void CommissionedDetector::Restore(int coil, double share) {
+  ratios_.Return(coil);
+  TakeShare(coil, share);
+}
+
+void CommissionedDetector::TakeShare(int coil, double share) {
+  turns_.share[coil] = share;
+  turns_.taken[coil] = count_;
+  filter_.SetTurns(coil, share);
+  ratios_.ClearWindows();
+  bands_.Set(model_, turns_);
+  Pause(kAfterShare);
 }
 
 void CommissionedDetector::BeginProbe(int coil) {
   // A working coil may carry a little current.
-  const double idle = share_[coil] > 0 ? 0 : idle_[coil];
-  probe_.Begin(coil, idle, Relies() ? kProbeBand : kUncommissionedProbeBand);
-  filter_.SetTurns(coil, share_[coil] > 0 ? share_[coil] : 1);
-  streak_ = Lane{};
+  const double idle = share(coil) > 0 ? 0 : currents_.idle(coil);
+  probe_.Begin(coil, idle, model_.usable() ? kProbeBand : kUncommissionedProbeBand);
+  filter_.SetTurns(coil, share(coil) > 0 ? share(coil) : 1);
+  decision_.ForgetStreaks();
 }
 
 Diagnosis CommissionedDetector::EndProbe(double t) {
   const int coil = probe_.coil();
   Diagnosis found;
-  if (share_[coil] > 0 && probe_.answer() == ProbeAnswer::kFaulty) {
+  if (share(coil) > 0 && probe_.answer() == ProbeAnswer::kFaulty) {
     found.coil = coil;
     found.time = found.onset = t;
     found.confidence = 1;
     const double c = probe_.excess();
     if (probe_.no_current()) {
       found.cls = FaultClass::kOpen;
-    } else if (Relies() && c > kGross) {
+    } else if (model_.usable() && c > ExcessLimits::kGross) {
       found.cls = FaultClass::kPartialShort;
       found.fraction = 1 - 1 / std::sqrt(1 + c);
     }
   }
-  filter_.SetTurns(coil, share_[coil]);
+  filter_.SetTurns(coil, share(coil));
   probe_.End();
-  windows_.Clear();
+  ratios_.ClearWindows();
   Pause(kAfterProbe);
   return found;
 }
 
-void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
-  touching_ = in.uncertainty.any();
-  if (touching_) touched_ = in.t;
-  bounces_ = in.t < touched_ + kBounces;
-  // Iron that takes less flux than its model leaves the rest to all other poles: from two of eight their
-  // c is a third at most.
-  Lane beyond;
-  int many = 0;
-  for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j) {
-    beyond[j] = share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j] && LeavesRange(j);
-    many += beyond[j] > 0;
-  }
-  last_flux_ = period_.largest_flux;
-  out_of_range_ = many > 0;
-  for (int j = 0; j < kLanes; ++j)
-    gross_above_[j] = many == 0                               ? kGross
-                      : beyond[j] > 0 || many >= kCoilsAtOnce ? kGrossAbove
-                                                              : kGrossBeside;
-}
-
-bool CommissionedDetector::LeavesRange(int coil) {
-  const double flux = period_.largest_flux[coil], range = model_.largest_flux[coil];
-  if (last_flux_[coil] > 0 && last_flux_[coil] <= range && FluxJumps(coil)) {
-    wider_range_[coil] = range * std::min(kMostWider, kSpare * flux / last_flux_[coil]);
-    wider_until_[coil] = count_ + kWiderPeriods;
-  }
-  return count_ > wider_until_[coil] || flux > wider_range_[coil];
-}
-
-bool CommissionedDetector::FluxJumps(int coil) const {
-  const double top = excess_.top[0][coil] + excess_.top[1][coil],
-               bottom = excess_.bottom[0][coil] + excess_.bottom[1][coil];
-  const double sudden = std::max(kSudden, kOverHealthy * model_.largest[0][coil]);
-  return top > sudden * std::max(bottom, kJudgedWeight) || jumps_.jump(coil) > 0;
-}
-
-bool CommissionedDetector::Disturbed() const {
-  if (calm_) return false;
-  // A fault stands out from what it throws at its neighbours; the model's errors are alike.
-  const double alike = kAlike * *std::max_element(level_.v, level_.v + kLanes);
-  int beyond = 0;
-  for (int j = 0; j < kLanes; ++j) beyond += ratio_[j] > 1 && level_[j] >= alike;
-  return beyond >= kCoilsAtOnce || windows_.Pattern(kLevelWindow) > PatternLimit();
-}
-
-double CommissionedDetector::LargestNow() const {
-  double most = 0;
-  for (double c : now_.v) most = std::max(most, std::abs(c));
-  return most;
-}
-
-int CommissionedDetector::GrossCoils() const {
-  int many = 0;
-  for (double c : now_.v) many += c > kGross;
-  return many;
-}
-
-bool CommissionedDetector::Decided(int coil, double excess) const {
-  if (LessThanATurn(coil, excess)) return false;
-  const bool gross =
-      excess < -kGross || excess > (out_of_range_ ? gross_above_[coil] : kGrossAbove);
-  if (Relies() && (!out_of_range_ || gross) && !Disturbed())
-    return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
-  if (MayBounce()) return false;
-  if (gross && HasNoCurrent(coil)) return true;
-  // Inside what was learnt no error of the model is as large: several coils have failed at once.
-  // What these throw at a healthy neighbour is smaller.
-  if (Relies() && !out_of_range_ && gross)
-    return PhasesAgree(coil) && std::abs(excess) > kOfTheLargest * LargestNow();
-  // A learnt model that was refused errs by a few tenths of c, and in its phases alike; not by half of the turns at once.
-  const bool witnessed =
-      CurrentIsFalse(coil) || (model_.learnt && jumped_[coil] > 0 && PhasesAgree(coil));
-  return gross && witnessed &&
-         (excess < 0 || (GrossCoils() < kCoilsAtOnce && (Relies() || jumped_[coil] > 0)));
-}
-
-CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
+CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
-  calm_ = false;
+  ratios_.Begin();
   const FluxFilter::State before = filter_.state();
   filter_.Period(in, &period_);
-  WatchCurrents(in);
-  const int stepped = jumps_.Period(in, now_);
+  currents_.Update(in, turns_.share, bands_.most_missed());
+  const int stepped = jumps_.Period(in, ratios_.now());
   const double nearest = kClosestGap * gap_;
   const double reach = gap_ - nearest;
   const bool comparable = in.comparable && in.x1 * in.x1 + in.y1 * in.y1 < reach * reach;
-  if (!comparable) {
-    ratio_ = streak_ = dead_ = last_flux_ = Lane{};
-    for (Lane& c : last_now_) std::fill_n(c.v, kLanes, kGross);
-    joint_.Clear();
+  if (!comparable || probe_.running()) {
+    if (comparable)
+      Probe();
+    else
+      Skip();
     return {};
   }
-  if (probe_.running()) {
-    Lane probed;
-    probed[probe_.coil()] = share_[probe_.coil()] > 0 ? share_[probe_.coil()] : 1;
-    ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
-    probe_.Add(excess_, period_.largest[probe_.coil()]);
-    ratio_ = last_flux_ = Lane{};
-    return {};
-  }
-  ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
+  ComputeSlopeExcess(filter_, model_.coils, settings_, period_, turns_.share, &excess_);
   drift_.TakeOff(&excess_);
-  WatchRange(in);
-  Ratios();
-  if (!Relies()) WatchJumps();
-  if (TakesFirstDrift()) return {};
-  if (calm_)
-    joint_.Clear();
+  touch_.Update(in);
+  range_.Update(period_, excess_, jumps_, turns_, count_);
+  const bool only_gross = touch_.touching() || range_.left();
+  ratios_.Update(excess_, {bands_, range_.gross_above(), only_gross, count_});
+  if (drift_.TakesFirst(!only_gross && !bands_.widened(), ratios_.windows(), bands_)) {
+    ratios_.Restart();
+    decision_.ForgetStreaks();
+    return {};
+  }
+  if (ratios_.calm())
+    decision_.ForgetPeriods();
   else
-    joint_.Keep(in, sampling_.samples, before);
+    decision_.Keep(in, sampling_.samples, before);
   if (paused_ > 0) {
     --paused_;
-    streak_ = Lane{};
+    decision_.ForgetStreaks();
     jumps_.Forget();
-    CountDead(in);
-    return WithoutCurrent(in.t);
+    currents_.CountWithout(in, period_, ratios_.now(), turns_.share);
+    return decision_.WithoutCurrent(Evidence(in));
   }
-  Outcome out = Judge(in);
-  FollowDrift(out.doubtful || out.alarm);
+  CoilVerdict out = Judge(Evidence(in));
+  turns_.erred = turns_.erred || out.turns == 1;
+  if (!out.doubtful && !out.alarm && !touch_.touching())
+    drift_.Follow(count_, ratios_.windows(), bands_);
   if (out.decided) {
     jumps_.Forget();
-  } else if (stepped >= 0 && share_[stepped] == 1) {
+  } else if (stepped >= 0 && share(stepped) == 1) {
     out.alarm = out.decided = true;
-    out.diagnosis = {
-        stepped, FaultClass::kCurrentSensor, 0, in.t + PeriodOf(sampling_), jumps_.onset(), 1};
+    const double end = in.t + sampling_.samples * sampling_.step;
+    out.diagnosis = {stepped, FaultClass::kCurrentSensor, 0, end, jumps_.onset(), 1};
   }
   return out;
 }
 
-CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& in) {
-  Outcome out;
-  out.doubtful = !Relies() || out_of_range_ || Disturbed();
-  // What flux a winding of a thrust side shares with its partner may keep its c calm although it has no current.
-  const bool shares_flux = filter_.nominal().coupling == Coupling::kSides && SomeMissItsCurrent();
-  if (!calm_ || shares_flux)
-    CountDead(in);
+void CommissionedDetector::Skip() {
+  ratios_.Skip(true);
+  range_.Forget();
+  currents_.ForgetWithout();
+  decision_.ForgetStreaks();
+  decision_.ForgetPeriods();
+}
+
+void CommissionedDetector::Probe() {
+  const int coil = probe_.coil();
+  Lane probed;
+  probed[coil] = share(coil) > 0 ? share(coil) : 1;
+  ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
+  probe_.Add(excess_, period_.largest[coil]);
+  ratios_.Skip(false);
+  range_.Forget();
+}
+
+CoilVerdict CommissionedDetector::Judge(const CoilEvidence& seen) {
+  const bool calm = ratios_.calm();
+  // What flux a winding of a thrust side shares with its partner may keep its c calm although it has
+  // no current.
+  const bool shares_flux = filter_.nominal().coupling == Coupling::kSides && currents_.AnySuspect();
+  if (!calm || shares_flux)
+    currents_.CountWithout(seen.in, period_, ratios_.now(), turns_.share);
   else
-    dead_ = Lane{};
+    currents_.ForgetWithout();
   if (shares_flux)
-    if (const Outcome failed = WithoutCurrent(in.t); failed.decided) return failed;
-  if (calm_) {
-    streak_ = Lane{};
-    return out;
-  }
-  const int coil =
-      static_cast<int>(std::max_element(ratio_.v, ratio_.v + filter_.nominal().coils) - ratio_.v);
-  out.alarm = ratio_[coil] > 1;
-  if (!out.alarm) waited_ = 0;
-  CountStreaks(in);
-  if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
-  out.excess = RecentExcess(coil);
-  if (!JudgedTogether(in, &out)) {
-    out.turns = MoreTurns(coil, out.excess);
-    erred_ = erred_ || out.turns == 1;
-    out.decided = out.turns > 0 || Decided(coil, out.excess);
-    if (!out.decided) return out;
-    out.diagnosis = Classify(coil, out.excess, in.t);
-    if (out.turns == 0) {
-      if (AwaitsCompanion(out.diagnosis, out.excess)) {
-        ++waited_;
-        out.decided = false;
-        return out;
-      }
-      out.more = Companions(coil, out.excess, in.t);
-    }
-  }
-  if (out.decided && out.turns == 0 && ShortedAgain(out.diagnosis)) {
-    out.decided = false;
-    out.doubtful = true;
-  }
+    if (CoilVerdict failed = decision_.WithoutCurrent(seen); failed.decided) return failed;
+  if (!calm) return decision_.Judge(seen);
+  decision_.ForgetStreaks();
+  CoilVerdict out;
+  out.doubtful = seen.Doubtful();
   return out;
 }
 
-bool CommissionedDetector::SomeMissItsCurrent() const {
-  for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (false_current_[j] > 0 || dead_[j] > 0) return true;
-  return false;
-}
-
-bool CommissionedDetector::LeftToPartner(const MeasuredPeriod& in, int coil) const {
-  const int partner = coil ^ 1;
-  if (filter_.nominal().coupling != Coupling::kSides || !in.set_point || share_[coil] == 0 ||
-      share_[partner] == 0 || (*in.set_point)[coil] < kAsked || false_current_[coil] == 0 ||
-      (*in.duty)[coil] < (*in.duty)[partner])
-    return false;
-  const auto range = [&](int j) {
-    double least = in.adc[0][j], most = least;
-    for (int k = 1; k < sampling_.samples; ++k) {
-      least = std::min(least, in.adc[k][j]);
-      most = std::max(most, in.adc[k][j]);
-    }
-    return most - least;
-  };
-  const double own = range(coil);
-  return own < kRangeOfNoise * settings_.current_noise && own < kStill * range(partner);
-}
-
-void CommissionedDetector::CountDead(const MeasuredPeriod& in) {
-  for (int j = 0; j < filter_.nominal().coils; ++j) {
-    // The diodes of a coil that is asked for no current block: its flux stands, whatever the bridge does.
-    const bool asked = !in.set_point || (*in.set_point)[j] > kAsked;
-    const bool dead = (period_.largest[j] < kConducts && now_[j] < -(asked ? kGross : kDeadIdle)) ||
-                      LeftToPartner(in, j);
-    if (dead_[j] == 0) dead_since_[j] = in.t;
-    dead_[j] = dead ? dead_[j] + 1 : 0;
-  }
-}
-
-void CommissionedDetector::CountStreaks(const MeasuredPeriod& in) {
-  const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
-  for (int j = 0; j < filter_.nominal().coils; ++j) {
-    if (!(ratio_[j] > 1) || ratio_[j] < least) {
-      streak_[j] = 0;
-      continue;
-    }
-    if (streak_[j] == 0) onset_[j] = in.t;
-    ++streak_[j];
-  }
+CoilEvidence CommissionedDetector::Evidence(const MeasuredPeriod& in) const {
+  return {model_, sampling_, settings_, filter_, period_, excess_, in,
+          turns_, ratios_,   currents_, range_,  touch_,  count_};
 }
 
 Lane CommissionedDetector::Period(const MeasuredPeriod& in) {
   Watch(in);
-  if (calm_) RatiosOfWindows();
-  return ratio_;
+  if (ratios_.calm()) ratios_.CompareWindows(bands_);
+  return ratios_.ratio();
 }
 
 }  // namespace ambrig

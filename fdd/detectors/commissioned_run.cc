@@ -16,7 +16,7 @@ CommissionedRun::CommissionedRun(const CoilDetectorSetup& setup,
 
 DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   DetectorAlarm alarm;
-  const CommissionedDetector::Outcome seen = watch_.Watch(in);
+  const CoilVerdict seen = watch_.Watch(in);
   doubtful_ = seen.doubtful && !seen.decided;
   if (!seen.decided) return alarm;
   const Diagnosis& d = seen.diagnosis;

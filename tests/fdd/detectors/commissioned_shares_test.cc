@@ -35,8 +35,8 @@ class LearntBench {
   }
   void Short(int coil, double share) { bench.lanes.ShortTurns(coil, share, kInfinity, 0, 0); }
   /// The first period of some that decides.
-  CommissionedDetector::Outcome First(int periods) {
-    CommissionedDetector::Outcome seen;
+  CoilVerdict First(int periods) {
+    CoilVerdict seen;
     for (int n = 0; n < periods && !seen.decided; ++n) seen = detector->Watch(bench.Run());
     return seen;
   }

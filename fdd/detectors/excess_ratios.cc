@@ -1,14 +1,15 @@
-/// Ratios of the commissioned detector: how far every coil stands beyond what is healthy.
+#include "fdd/detectors/excess_ratios.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "actuators/magnetics/whole_lane_vector.h"
-#include "fdd/detectors/commissioned_detector.h"
 
 namespace ambrig {
 
 namespace {
 
+constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
 constexpr double kGrossBand = 0.1;     // of |c| beyond what is gross, against the windows'
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
@@ -73,71 +74,89 @@ AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& ap
   Store(level->v, Select(counts, Abs(Load(level_now.v)), Load(level->v)));
 }
 
-/// Readings of every coil: the mean, and how far it and the one before both are from the set-point, of which
-/// the amplifier gives nothing below `least`.
-AMBRIG_WIDE void CompareCurrents(const Lane* adc, int samples, const Lane& set_point, double least,
-                                 const Lane& limit, Lane* last_miss, Lane* error,
-                                 Lane* false_current) {
-  LaneVector mean = 0.0;
-  for (int k = 0; k < samples; ++k) mean += Load(adc[k].v);
-  const LaneVector miss = Abs(Max(Load(set_point.v), least) - mean * (1.0 / samples));
-  Store(error->v, Min(miss, Load(last_miss->v)));
-  Store(last_miss->v, miss);
-  Store(false_current->v,
-        Only(Below(Load(limit.v), miss), Load(false_current->v) + LaneVector(1.0)));
-}
-
 }  // namespace
 
-void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
-  current_error_ = Lane{};
-  for (int j = 0; j < filter_.nominal().coils; ++j) {
-    if (share_[j] > 0) continue;
-    idle_[j] = 0;
-    for (int k = 0; k < sampling_.samples; ++k) idle_[j] += in.adc[k][j] / sampling_.samples;
-  }
-  const double least = sampling_.amplifier->quadrants > 2 ? -kInfinity : 0;
-  if (in.set_point)
-    CompareCurrents(in.adc, sampling_.samples, *in.set_point, least, most_missed_, &last_miss_,
-                    &current_error_, &false_current_);
+ExcessRatios::ExcessRatios(const LinkageModel& nominal, const CommissionedBearing& learnt)
+    : coils_(nominal.coils),
+      relies_(learnt.usable()),
+      pattern_limit_(std::max(kLeastPattern, kPatternGrows * learnt.pattern)),
+      least_below_(nominal.coupling == Coupling::kSides ? kLeastBelowOnOneCore : kLeastBelow),
+      windows_(nominal) {}
+
+void ExcessRatios::Update(const SlopeExcess& excess, const Conditions& in) {
+  const auto place = static_cast<std::size_t>(in.count % static_cast<long long>(recent_.size()));
+  const PeriodLimits limits{ExcessLimits::kGross, in.gross_above, in.only_gross};
+  const bool gross = (whole_lanes ? JudgePeriodWhole : JudgePeriodInHalves)(
+      excess, limits,
+      {&recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_, &apart_});
+  // What a model does not express keeps flux out in many coils: those are not the suspects.
+  if (!relies_ && gross && GrossCoils() >= ExcessLimits::kCoilsAtOnce)
+    for (int j = 0; j < coils_; ++j)
+      if (now_[j] > 0) ratio_[j] = 0;
+  windows_.Add(excess, apart_);
+  calm_ = !gross && windows_.Calm(in.bands.of_windows(), kLevelWindow, pattern_limit_);
+  if (!calm_) CompareWindows(in.bands);
+  if (!relies_) FindJumps();
 }
 
-void CommissionedDetector::WatchJumps() {
+void ExcessRatios::CompareWindows(const ExcessBands& bands) {
+  Lane used[kExcessWindows];
+  windows_.UsedOfAll(ExcessLimits::kNoiseOfBand, used);
+  JudgeWindows(used, bands.of_windows(), apart_, used[kLevelWindow], least_below_, &ratio_,
+               &level_);
+}
+
+void ExcessRatios::Skip(bool gross_before) {
+  ratio_ = Lane{};
+  if (!gross_before) return;
+  for (Lane& c : last_now_) std::fill_n(c.v, kLanes, ExcessLimits::kGross);
+}
+
+void ExcessRatios::Restart() {
+  windows_.Clear();
+  ratio_ = Lane{};
+}
+
+void ExcessRatios::FindJumps() {
   for (int j = 0; j < kLanes; ++j) {
-    if (now_[j] < kGross)
+    if (now_[j] < ExcessLimits::kGross)
       jumped_[j] = 0;
-    else if (now_[j] > kGrossAbove && std::min(last_now_[0][j], last_now_[1][j]) < kGross)
+    else if (now_[j] > ExcessLimits::kGrossAbove &&
+             std::min(last_now_[0][j], last_now_[1][j]) < ExcessLimits::kGross)
       jumped_[j] = 1;
   }
   last_now_[1] = last_now_[0];
   last_now_[0] = now_;
 }
 
-double CommissionedDetector::PatternLimit() const {
-  return std::max(kLeastPattern, kPatternGrows * model_.pattern);
+double ExcessRatios::Recent(int coil) const {
+  double top = 0, bottom = 0;
+  for (const Sums& period : recent_) {
+    top += period.top[coil];
+    bottom += period.bottom[coil];
+  }
+  return bottom > kJudgedWeight ? top / bottom : 0;
 }
 
-void CommissionedDetector::Ratios() {
-  const auto place = static_cast<std::size_t>(count_ % static_cast<long long>(kInARow));
-  const PeriodLimits limits{kGross, gross_above_, touching_ || out_of_range_};
-  const bool gross = (whole_lanes ? JudgePeriodWhole : JudgePeriodInHalves)(
-      excess_, limits,
-      {&recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_, &apart_});
-  // What a model does not express keeps flux out in many coils: those are not the suspects.
-  if (!Relies() && gross && GrossCoils() >= kCoilsAtOnce)
-    for (int j = 0; j < filter_.nominal().coils; ++j)
-      if (now_[j] > 0) ratio_[j] = 0;
-  windows_.Add(excess_, apart_);
-  calm_ = !gross && windows_.Calm(band_, kLevelWindow, PatternLimit());
-  if (!calm_) RatiosOfWindows();
+double ExcessRatios::LargestNow() const {
+  double most = 0;
+  for (double c : now_.v) most = std::max(most, std::abs(c));
+  return most;
 }
 
-void CommissionedDetector::RatiosOfWindows() {
-  Lane used[kExcessWindows];
-  windows_.UsedOfAll(kNoiseOfBand, used);
-  const double least_below =
-      filter_.nominal().coupling == Coupling::kSides ? kLeastBelowOnOneCore : kLeastBelow;
-  JudgeWindows(used, band_, apart_, used[kLevelWindow], least_below, &ratio_, &level_);
+int ExcessRatios::GrossCoils() const {
+  int many = 0;
+  for (double c : now_.v) many += c > ExcessLimits::kGross;
+  return many;
+}
+
+bool ExcessRatios::Disturbed() const {
+  if (calm_) return false;
+  // A fault stands out from what it makes of its neighbours; the model's errors are alike.
+  const double alike = kAlike * *std::max_element(level_.v, level_.v + kLanes);
+  int beyond = 0;
+  for (int j = 0; j < kLanes; ++j) beyond += ratio_[j] > 1 && level_[j] >= alike;
+  return beyond >= ExcessLimits::kCoilsAtOnce || windows_.Pattern(kLevelWindow) > pattern_limit_;
 }
 
 }  // namespace ambrig
