@@ -24,6 +24,8 @@ double LargestInductance(const BearingParameters& b);
 double LeastInductance(const BearingParameters& b);
 /// Resistance of one coil [ohm].
 double CoilResistance(const BearingParameters& b);
+/// Shares of the radial bearings in a load across the shaft at the centre of mass [-].
+std::vector<double> RadialShares(const RigParameters& rig);
 /// Bearing forces (fx, fy) that carry the rotor's weight, one per bearing. [N]
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig);
 /// The weight's share of every axis [N].

@@ -4,6 +4,9 @@
 
 namespace ambrig {
 
+/// Of the nominal gap: no gap is counted smaller, there the shaft has reached the pole.
+inline constexpr double kGapAtPole = 0.02;
+
 struct GapReluctance {
   double per_metre = 0;  // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
   double iron_path = 0;  // [m] added to the gap (effect iron-reluctance)

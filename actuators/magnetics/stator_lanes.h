@@ -105,10 +105,9 @@ class StatorLanes : public StatorGeometry {
   Eigen::VectorXd CountedCurrents(const double* current) const;
 
  private:
-  /// Never below 2 % of the nominal gap: a shaft pressed beyond that has reached the pole.
   double GapAt(int j, double x, double y) const {
     const double gap = gap_offset[j] - x * direction_x[j] - y * direction_y[j];
-    const double least = 0.02 * reluctance.gap0;
+    const double least = kGapAtPole * reluctance.gap0;
     return gap < least ? least : gap;
   }
   void UpdateConductance(int j);

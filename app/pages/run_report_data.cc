@@ -11,6 +11,7 @@
 #include "app/figures/series.h"
 #include "app/pages/format.h"
 #include "core/base/read_file.h"
+#include "core/base/version.h"
 #include "fdd/learning/commissioning_file.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
@@ -46,7 +47,7 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
     if (!b.kind->two_axes) continue;
     ReportBearing r;
     r.name = b.name;
-    r.clearance = b.auxiliary ? b.auxiliary->clearance : GapOf(b);
+    r.clearance = ClearanceOf(b);
     r.pole_angles = b.kind->stator(b).Angles();
     r.x = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 0});
     r.y = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 1});
@@ -207,8 +208,8 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
                                 const std::string& fidelity) {
   RunReportData data;
   data.name = scenario.name;
-  data.subtitle =
-      fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
+  data.subtitle = fmt::format("rig {}, {} fidelity, seed {}, {}", rig.name, fidelity, scenario.seed,
+                              ProgramVersion());
   FillVerdict(result, expect, data);
   std::vector<std::string> notes = result.notes;
   if (const std::string note = DoubtfulModelNote(rig, result); !note.empty()) notes.push_back(note);

@@ -11,6 +11,9 @@
 
 namespace ambrig {
 
+/// [A] up to which the diodes of a bridge may interrupt a coil's current: no duty holds it.
+inline constexpr double kInterruptedCurrent = 0.2;
+
 class CurrentRegulator {
  public:
   CurrentRegulator() = default;
@@ -39,7 +42,7 @@ class CurrentRegulator {
     return d < p_->duty_min ? p_->duty_min : (d > p_->duty_max ? p_->duty_max : d);
   }
   /// Integral [V] that holds `current` in a coil of `resistance`; the lower limit for a coil told
-  /// 0.2 A or less.
+  /// kInterruptedCurrent or less.
   void HoldCurrent(double current, double resistance);
   void ResetToLowerLimit();
   double DutyFromVoltage(double u) const { return centre_ + u * duty_per_volt_; }

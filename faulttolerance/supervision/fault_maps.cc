@@ -64,7 +64,7 @@ void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& cont
     held.HoldCurrent(now, resistance);
     const double before = held.integral();
     held.HoldCurrent(next[j], resistance * w.turns_left[j]);
-    const bool moves = now > 0.2 && next[j] > 0.2;
+    const bool moves = now > kInterruptedCurrent && next[j] > kInterruptedCurrent;
     out.actions.push_back(
         SetIntegral{w.index, j, moves ? integral + held.integral() - before : held.integral()});
   }

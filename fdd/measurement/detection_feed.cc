@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "actuators/electronics/adc.h"
+#include "core/math/line_weights.h"
 #include "fdd/learning/commissioning_file.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
@@ -101,9 +102,9 @@ DetectionFeed::DetectionFeed(const NominalRig& nominal)
     views_.push_back({&b, axis, axis_names_.size(), b.kind->axial ? 1U : 0U, {}, {}, {}});
   }
   for (View& v : views_) {
-    v.weights = PlaneWeights(sensor_z, v.bearing->z);
+    v.weights = LineWeights(sensor_z, v.bearing->z);
     const double stop = v.bearing->auxiliary_z;
-    v.auxiliary_weights = std::isnan(stop) ? v.weights : PlaneWeights(sensor_z, stop);
+    v.auxiliary_weights = std::isnan(stop) ? v.weights : LineWeights(sensor_z, stop);
   }
   struck_.assign(axis_names_.size(), 0.0);
   start_.assign(axis_names_.size(), 0.0);

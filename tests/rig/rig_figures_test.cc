@@ -56,6 +56,13 @@ TEST(WeightShares, OfTwoBearingsAreALever) {
               ElementsAre(shares[0][0], shares[0][1], shares[1][0], shares[1][1], shares[2][0]));
 }
 
+// A single radial bearing carries all, wherever it is.
+TEST(WeightShares, OfOneBearingIsTheWeight) {
+  RigParameters rig = ReferenceLanesRig();
+  rig.bearings.erase(rig.bearings.begin() + 1);
+  EXPECT_NEAR(WeightShares(rig)[0][1], rig.rotor.mass * 9.81, 1e-9);
+}
+
 // k c0 is the slope of the force at the centre over the control current v, i = W (c0, v, 0).
 TEST(ForceConstant, IsTheSlopeOfARadialBearingsForce) {
   const RigParameters& rig = ReferenceLanesRig();
