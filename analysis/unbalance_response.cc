@@ -6,7 +6,7 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 #include "rotor/shaft/rotor_modes.h"
 

@@ -7,7 +7,7 @@ if(AMBRIG_PRECOMPILED_HEADERS)
   ambrig_offline(ambrig_test_headers)
   target_precompile_headers(ambrig_test_headers PRIVATE ${AMBRIG_JSON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   # Chooses its instruction set before the first header.
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/core/noise_test.cc PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/core/math/noise_test.cc PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endif()
 # Folders whose tests need no other folder and no program: CI runs them under the sanitizers too (tools/run_tests.sh). With core
 # come the readers of every file format.

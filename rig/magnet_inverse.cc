@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "actuators/magnetics/stator_parameters.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rig/parameters/bearing_kind.h"
+#include "rotor/linear/linear_rotor.h"
 #include "rotor/shaft/support_term.h"
 
 namespace ambrig {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/base/toml_checked.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/true_rig.h"
 
 namespace ambrig {

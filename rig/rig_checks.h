@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/base/toml.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/position/controller_kind.h"
+#include "control/interface/controller_kind.h"
 #include "core/base/coil_name.h"
 #include "core/math/line_weights.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Figures that follow from the parameters of a rig alone, without a plant.
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "app/commands/commands.h"
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "core/base/errors.h"
 #include "core/base/memory_reuse.h"
 #include "core/base/version.h"

@@ -1,10 +1,10 @@
 #pragma once
-/// Two independent models of contact as JSON and as one HTML page (simulation/verdict/contact_crosscheck.h).
+/// Two independent models of contact as JSON and as one HTML page (simulation/crosscheck/contact_crosscheck.h).
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "simulation/verdict/contact_crosscheck.h"
+#include "simulation/crosscheck/contact_crosscheck.h"
 
 namespace ambrig {
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 namespace {

@@ -9,12 +9,12 @@
 
 #include "analysis/dropped_modes.h"
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/base/read_file.h"
 #include "core/base/version.h"
 #include "fdd/learning/commissioning_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {

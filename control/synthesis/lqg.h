@@ -11,8 +11,8 @@
 /// (control/synthesis/plane_weight.h, mode_weight.h). The noise model has independent forces at the bearings,
 /// disturbances of the shaft, and readings. Clamped, the integral stops on the side that e = r - y
 /// pushes to, as the PID's. Source: Franklin, Powell, Workman 1998, chapter 9.
+#include "control/linear/sampled_plant.h"
 #include "control/position/position_controller.h"
-#include "control/synthesis/sampled_plant.h"
 #include "core/base/parameters.h"
 
 namespace ambrig {

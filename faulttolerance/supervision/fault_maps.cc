@@ -7,7 +7,7 @@
 #include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/stator_failure_map.h"
 #include "faulttolerance/supervision/watched_bearing.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

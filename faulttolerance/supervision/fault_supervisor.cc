@@ -8,8 +8,8 @@
 #include "core/base/coil_name.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/watched_bearing.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

@@ -20,8 +20,8 @@
 #include "faulttolerance/redistribution/redistribution_table.h"
 #include "faulttolerance/supervision/current_transition_policy.h"
 #include "faulttolerance/supervision/supervisor.h"
+#include "fdd/detectors/detection_feed.h"
 #include "fdd/detectors/run_detector.h"
-#include "fdd/measurement/detection_feed.h"
 #include "rig/nominal_rig.h"
 
 namespace ambrig {

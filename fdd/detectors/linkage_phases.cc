@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fdd/model/inductance_matrix.h"
+#include "fdd/circuit/inductance_matrix.h"
 
 namespace ambrig {
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "fdd/detectors/kept_period.h"
 #include "fdd/diagnosis.h"
+#include "fdd/measurement/kept_period.h"
 
 namespace ambrig {
 

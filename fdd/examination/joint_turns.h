@@ -20,8 +20,8 @@
 #include <array>
 #include <optional>
 
-#include "fdd/detectors/kept_period.h"
-#include "fdd/model/slope_excess.h"
+#include "fdd/circuit/slope_excess.h"
+#include "fdd/measurement/kept_period.h"
 
 namespace ambrig {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fdd/model/slope_excess.h"
+#include "fdd/circuit/slope_excess.h"
 
 namespace ambrig {
 

@@ -1,8 +1,8 @@
 /// Two windings on each side of a thrust disk; one axis along the shaft.
 #include <fmt/format.h>
 
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/bearing_kinds/bearing_plane.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

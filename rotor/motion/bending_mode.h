@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "rotor/motion/force_term.h"
+#include "rotor/linear/force_term.h"
 
 namespace ambrig {
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "rotor/contact/auxiliary_bearing.h"
+#include "rotor/linear/force_term.h"
 #include "rotor/motion/bending_mode.h"
-#include "rotor/motion/force_term.h"
 #include "rotor/motion/rotor_parameters.h"
 #include "rotor/motion/speed_profile.h"
 

@@ -12,7 +12,7 @@
 /// the angle, without an error.
 #include <cstdint>
 
-#include "rotor/motion/force_term.h"
+#include "rotor/linear/force_term.h"
 #include "rotor/motion/speed_sensor_parameters.h"
 
 namespace ambrig {

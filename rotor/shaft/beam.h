@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 #include "rotor/shaft/several_shafts.h"
 #include "rotor/shaft/shaft_element.h"
 #include "rotor/shaft/support.h"

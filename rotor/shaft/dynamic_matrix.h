@@ -5,7 +5,7 @@
 #include <complex>
 #include <memory>
 
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 
 namespace ambrig {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "fdd/commissioned/healthy_bands.h"
+#include "fdd/detectors/detection_feed.h"
 #include "fdd/learning/commissioning_file.h"
 #include "fdd/learning/commissioning_fit.h"
-#include "fdd/learning/healthy_bands.h"
-#include "fdd/measurement/detection_feed.h"
 #include "simulation/commissioning/excess_scatter.h"
 #include "simulation/switching/switching_engine.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What differs from coil to coil of one rig although its parts have the same name: the gains of the current
 /// measurements and the instants at which the bridges switch (dead times that are not known exactly).
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -19,12 +19,12 @@
 #include "faulttolerance/supervision/supervisor.h"
 #include "rig/rig_assembly.h"
 #include "scenarios/scenario.h"
-#include "simulation/record/run_record.h"
 #include "simulation/record/run_result.h"
 #include "simulation/sampled/command_plan.h"
 #include "simulation/sampled/current_loops.h"
 #include "simulation/sampled/measurement_noise.h"
 #include "simulation/sampled/position_loop.h"
+#include "simulation/sampled/run_record.h"
 #include "simulation/sampled/sampled_bearing.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/math/line_weights.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

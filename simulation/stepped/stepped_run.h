@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "faulttolerance/supervision/fault_supervisor.h"
-#include "simulation/record/channel_values.h"
+#include "simulation/sampled/channel_values.h"
 #include "simulation/sampled/command_plan.h"
 #include "simulation/switching/switching_engine.h"
 

@@ -13,7 +13,7 @@
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/magnet_inverse.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

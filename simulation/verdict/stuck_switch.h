@@ -9,7 +9,7 @@
 /// pulls the other way there: no bound is known.) Ideal iron; loads other than the weight are not counted.
 #include <string>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "scenarios/scenario.h"
 #include "simulation/record/run_result.h"
 

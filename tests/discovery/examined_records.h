@@ -8,7 +8,7 @@
 #include "discovery/decision/explain.h"
 #include "discovery/practice/examination.h"
 #include "discovery/practice/measured_case.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "tests/actuators/magnetics/reference_lanes.h"
 
 namespace ambrig {

@@ -8,7 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/read_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_checks.h"
 #include "tests/cli/cli_run.h"
 

@@ -10,7 +10,7 @@
 #include "discovery/data/data_gate.h"
 #include "discovery/model/floor.h"
 #include "discovery/practice/examination.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig::testing {

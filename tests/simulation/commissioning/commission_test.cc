@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fdd/detectors/commissioned_detector.h"
-#include "fdd/measurement/detection_feed.h"
+#include "fdd/commissioned/commissioned_detector.h"
+#include "fdd/detectors/detection_feed.h"
 #include "tests/effects/effect_rigs.h"
 #include "tests/fdd/commissioned_plant.h"
 
