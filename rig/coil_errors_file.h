@@ -1,5 +1,6 @@
 #pragma once
-/// The `coil_errors` of a bearing in a rig file: { current_gain = [...], edge = [...] }, one number per coil.
+/// The `coil_errors` of a bearing in a rig file: { current_gain = [...], edge = [...] }, one
+/// number per coil.
 #include "core/base/toml.h"
 #include "rig/parameters/rig_parameters.h"
 

@@ -63,7 +63,8 @@ MagnetLaw LawOf(const OpposedStatorParameters& p) {
           }};
 }
 
-/// The classic kinds as the networks that they are (tests/actuators/magnetics/pole_network_test.cc).
+/// The classic kinds as the networks that they are
+/// (tests/actuators/magnetics/pole_network_test.cc).
 std::shared_ptr<const PoleNetwork> NetworkOfClassic(const BearingParameters& b) {
   StatorParameters p;
   p.leakage_inductance = p.resistance = 1;  // no force of theirs

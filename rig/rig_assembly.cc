@@ -45,8 +45,8 @@ Plant BuildPlant(const TrueRig& true_rig) {
   std::vector<std::pair<const EffectDescription*, const EffectInstance*>> live;
   for (const EffectInstance& e : rig.effects)
     if (!e.IsNull()) live.emplace_back(FindEffect(e.name), &e);
-  // In the catalogue's order: a law takes numbers of the plant that later effects change, so that a rig would depend
-  // on the order in which its file names them.
+  // In the catalogue's order: a law takes numbers of the plant that later effects change, so that a
+  // rig would depend on the order in which its file names them.
   std::stable_sort(live.begin(), live.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const BendingMode& mode : rig.modes) plant.rotor.AddBendingMode(mode);

@@ -30,8 +30,8 @@ std::vector<double> RadialShares(const RigParameters& rig);
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig);
 /// The weight's share of every axis [N].
 std::vector<double> WeightOverAxes(const RigParameters& rig);
-/// Controllers of the rig that a synthesis designs for its linear plant (lqg, h-infinity): "main" for
-/// [controller], NAMEs of [controllers.NAME].
+/// Controllers of the rig that a synthesis designs for its linear plant
+/// (lqg, h-infinity): "main" for [controller], NAMEs of [controllers.NAME].
 std::vector<std::string> DesignedControllers(const RigParameters& rig);
 
 /// Rates at which the engine can record: the nearest one not below `rate`.

@@ -1,6 +1,7 @@
 #pragma once
-/// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it. The pull of
-/// a flux phi is (1/2) phi² Pull(g); by virtual work Pull is the reluctance's slope dR/dg.
+/// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it.
+/// The pull of a flux phi is (1/2) phi² Pull(g); by virtual work Pull is the
+/// reluctance's slope dR/dg.
 
 namespace ambrig {
 

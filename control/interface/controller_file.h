@@ -1,6 +1,6 @@
 #pragma once
-/// The controllers that a rig file may name (controller_kind.h): [controller] and, for changing over in a run,
-/// [controllers.NAME]. Keys: docs/guide/controllers.md; numbers: docs/parameters.md.
+/// The controllers that a rig file may name (controller_kind.h): [controller] and, for changing
+/// over in a run, [controllers.NAME]. Keys: docs/guide/controllers.md; numbers: docs/parameters.md.
 #include <memory>
 #include <optional>
 #include <string>

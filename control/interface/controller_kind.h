@@ -65,7 +65,8 @@ struct ControllerKind {
   void (*document)(std::vector<ParameterRow>& rows) = nullptr;
   /// One PID for each axis by itself: it also serves where every bearing has its own controller.
   bool per_axis = false;
-  /// Designed from the linear plant of the site: it can be designed again for coils that have failed.
+  /// Designed from the linear plant of the site: it can be designed again for coils
+  /// that have failed.
   bool designed = false;
 };
 

@@ -1,6 +1,7 @@
-/// kind = "duty-pid": a PID whose output is the duty of the bridges, without a current loop, as simple
-/// levitators have it. It needs amplifiers in voltage mode: what a duty of one does there is a force
-/// in the linear map, k c0 U/kp per axis (U: volts from duty 0 to duty 1 at the coil, kp: volts per ampere).
+/// kind = "duty-pid": a PID whose output is the duty of the bridges, without a current
+/// loop, as simple levitators have it. It needs amplifiers in voltage mode: what a duty of one does
+/// there is a force in the linear map, k c0 U/kp per axis (U: volts from duty 0 to duty 1 at the
+/// coil, kp: volts per ampere).
 #include "control/interface/controller_kind.h"
 #include "core/base/errors.h"
 

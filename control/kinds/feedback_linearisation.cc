@@ -4,8 +4,8 @@ namespace ambrig {
 
 namespace {
 
-/// Readings of all axes -> place (x, y) in the plane of bearing `of`. A rigid rotor is c + z tilt in either plane; one
-/// radial bearing alone, or an axial one, is where its own sensor reads.
+/// Readings of all axes -> place (x, y) in the plane of bearing `of`. A rigid rotor is c + z tilt
+/// in either plane; one radial bearing alone, or an axial one, is where its own sensor reads.
 Eigen::Matrix2Xd PlaceFromReadings(const ControllerSite& site, std::size_t of) {
   std::vector<std::size_t> first;  // axis of each radial bearing
   std::vector<double> sensor_z;

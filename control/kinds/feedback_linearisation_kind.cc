@@ -1,4 +1,5 @@
-/// kind = "feedback-linearisation": a PID whose forces the exact inverse of the magnets turns into currents.
+/// kind = "feedback-linearisation": a PID whose forces the exact inverse of the magnets
+/// turns into currents.
 #include "control/kinds/feedback_linearisation.h"
 
 namespace ambrig {

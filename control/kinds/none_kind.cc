@@ -1,5 +1,6 @@
-/// kind = "none": no position controller. Held rotors, and records whose currents were measured, need none; a rig file
-/// without [controller] has it. The forces that carry the weight at the start stay as they are.
+/// kind = "none": no position controller. Held rotors, and records whose currents were measured,
+/// need none; a rig file without [controller] has it. The forces that carry the weight at the start
+/// stay as they are.
 #include "control/interface/controller_kind.h"
 #include "control/position/state_space_controller.h"
 

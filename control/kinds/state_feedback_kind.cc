@@ -1,12 +1,13 @@
 /// kind = "state-feedback": gains on the position and velocity of an observer, for each axis
 ///
-///   m x'' = k_s x + f,  f as commanded one period ago           (model of the axis, sampled exactly)
-///   s+ = A s + B f_1 + L (y - s_1),  f = -K s+ + integral       s = (x, v) estimated, f_1 the last f
+///   m x'' = k_s x + f,  f as commanded one period ago        (model of the axis, sampled exactly)
+///   s+ = A s + B f_1 + L (y - s_1),  f = -K s+ + integral    s = (x, v) estimated, f_1 the last f
 ///   integral+ = integral - ki Ts y
 ///
-/// s+ is the state when f acts, so that the delay costs nothing but the prediction: with ki = 0 the poles
-/// of the loop are those of A - B K, those of the observer (bandwidth `observer`, damping
-/// `observer_damping`) and 0. The integral, which carries static forces, is not told to the observer.
+/// s+ is the state when f acts, so that the delay costs nothing but the prediction:
+/// with ki = 0 the poles of the loop are those of A - B K, those of the observer
+/// (bandwidth `observer`, damping `observer_damping`) and 0. The integral, which carries static
+/// forces, is not told to the observer.
 #include <cmath>
 
 #include "control/interface/controller_kind.h"

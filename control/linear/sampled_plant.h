@@ -12,8 +12,8 @@
 ///
 ///   v_k = V x_k
 ///
-/// whose cost is 1, and disturbances of size 1 that enter by G as d_k does by E; both are empty when
-/// it weighs nothing there.
+/// whose cost is 1, and disturbances of size 1 that enter by G as d_k does by E; both
+/// are empty when it weighs nothing there.
 #include "control/linear/state_space.h"
 
 namespace ambrig {

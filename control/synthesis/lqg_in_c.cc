@@ -108,7 +108,8 @@ static void $_track(const double *y, const double *r, double omega, const double
 void LqgController::WriteC(CCode& c) const {
   const std::string part = c.NewPart();
   const Eigen::Index axes = xi_.size(), n = x_.size();
-  // Hold is linear in forces, readings and references: its columns are what it does to unit vectors.
+  // Hold is linear in forces, readings and references: its columns are what it does
+  // to unit vectors.
   Eigen::MatrixXd hold_x(n, 3 * axes), hold_xi(axes, 3 * axes);
   for (Eigen::Index k = 0; k < 3 * axes; ++k) {
     LqgController copy(speeds_, designs_, f_max_, Ts_);

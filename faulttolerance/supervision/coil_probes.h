@@ -9,8 +9,9 @@
 /// Not looked at: a switch that stays on (the current could not be taken away again).
 ///
 /// A coil that works but has been asked for next to no current for 10 ms would not show a fault:
-/// the same current is asked of it then and every 50 ms, but not of a shaft that moves by more than 20 % of the clearance:
-/// what the current pulls adds to a swing that may already be as large as the bearing can hold.
+/// the same current is asked of it then and every 50 ms, but not of a shaft that moves by more
+/// than 20 % of the clearance: what the current pulls adds to a swing that may already be as large
+/// as the bearing can hold.
 #include <array>
 #include <map>
 
@@ -37,9 +38,10 @@ class CoilProbes {
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
   /// indication then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
-  /// Whether another coil of the bearing waits for its probes after a false reading of its current, came back
-  /// from one, or answered as healthy to a detector that doubts its model. Current sensors do not fail one after the other within milliseconds, a
-  /// model that is wrong says just that: such a conclusion is not to be acted on.
+  /// Whether another coil of the bearing waits for its probes after a false reading of its
+  /// current, came back from one, or answered as healthy to a detector that doubts its model.
+  /// Current sensors do not fail one after the other within milliseconds, a model that is wrong
+  /// says just that: such a conclusion is not to be acted on.
   bool OtherFalseCurrent(int coil) const;
   /// A probe of `coil` found it healthy, but the detector doubts its model.
   void Dispute(int coil);

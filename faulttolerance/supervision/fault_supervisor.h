@@ -9,9 +9,9 @@
 ///     command of the position loop stays as it is (bumpless in force)
 ///   - every regulator's integral is moved by what its new current needs (bumpless in voltage)
 ///   - a coil that was switched off is looked at again and may return (coil_probes.h)
-/// A bearing whose controller commands currents itself is told so ("not_redistributed"): its map waits
-/// for a controller that uses it, and its regulators are left alone. So is one that nothing is left
-/// of that gives its forces, though its coils that work go on with what they can.
+/// A bearing whose controller commands currents itself is told so ("not_redistributed"):
+/// its map waits for a controller that uses it, and its regulators are left alone. So is one that
+/// nothing is left of that gives its forces, though its coils that work go on with what they can.
 /// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
 #include <deque>
 #include <map>

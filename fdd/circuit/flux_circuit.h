@@ -10,9 +10,10 @@
 ///   e_m <- a_m e_m + b_m (psi - last psi),  a_m = exp(-p_m h),  b_m = r_m (1 - a_m)/(p_m h)
 ///
 /// x, y: as measured, less the run-out. u: potential of the rotor, from sum psi = 0 (radial); on a
-/// thrust side both windings add up and u = 0. The four poles p_m are fixed (kRelaxationPoles), only their residues r_m are learned: a
-/// free pole sticks in local minima. Every relaxation of the iron, eddy currents first, is a sum of
-/// such terms. The powers of psi are a tangent at the last sample: no iteration.
+/// thrust side both windings add up and u = 0. The four poles p_m are fixed (kRelaxationPoles),
+/// only their residues r_m are learned: a free pole sticks in local minima. Every relaxation of the
+/// iron, eddy currents first, is a sum of such terms. The powers of psi are a tangent at the last
+/// sample: no iteration.
 ///
 /// Samples that do not count in the slopes: the first two of a period and the first after the edge,
 /// so that dead time up to 4 us and errors of the edge do no harm; of an off phase those at which
@@ -77,7 +78,8 @@ class FluxFilter {
   /// M0 of every coil: n^2 over the nominal gap's reluctance [H].
   const Lane& inductances() const { return inductance_; }
 
-  /// State between samples: psi of the last one, a_m (e_m - b_m psi) of the poles that have a residue.
+  /// State between samples: psi of the last one, a_m (e_m - b_m psi) of the poles that
+  /// have a residue.
   struct State {
     Lane psi;
     Lane held[kRelaxations];

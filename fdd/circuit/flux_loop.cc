@@ -26,8 +26,8 @@ struct Tangent {
 ///
 ///   (rho + sum b_m) psi = s i - u - sum z_m,   z_m <- a_m z_m - b_m (1 - a_m) psi_1,
 ///
-/// and a_m z_m is known one sample earlier. So are p = 1/(rho + sum b_m) where no knee bends, which grows
-/// evenly, and with it all sums over the poles but one. There
+/// and a_m z_m is known one sample earlier. So are p = 1/(rho + sum b_m) where no knee
+/// bends, which grows evenly, and with it all sums over the poles but one. There
 ///
 ///   psi = free - p U/sum p,   free = driven + q psi_1,   q = p sum b_m (1 - a_m),   U = sum free,
 ///
@@ -135,8 +135,9 @@ struct CircuitState {
   }
 };
 
-/// kConducting: every current of the period is surely above zero. Then the off phase is all samples but
-/// those of the on phase and the one after it, and how many count is known from the edge.
+/// kConducting: every current of the period is surely above zero. Then the off phase is
+/// all samples but those of the on phase and the one after it, and how many count is known
+/// from the edge.
 template <class V, Coupling kCoupling, int kRelaxing, bool kKnee, bool kConducting>
 [[gnu::always_inline]] inline void Run(const FluxLoopInput& in, FluxFilter::State* state,
                                        FluxPeriod* out) {

@@ -8,8 +8,8 @@ namespace ambrig {
 
 inline constexpr double kFewestForSlope = 3;  // of a phase that has slopes
 
-/// Sums over the samples of a phase that count; those over k are sums of the sums so far, taken back to
-/// k = 0 at the end.
+/// Sums over the samples of a phase that count; those over k are sums of the sums so far,
+/// taken back to k = 0 at the end.
 template <class V>
 struct PhaseSums {
   V y = 0.0, y_after = 0.0, i = 0.0, i_after = 0.0;
@@ -42,7 +42,8 @@ struct Places {
   [[gnu::always_inline]] void FromStart(const V& end) { sum = count * end - sum; }
 };
 
-/// How many of the samples 0, 1, ... before `end` come before `x`: x rounded up, within 0 and `end`.
+/// How many of the samples 0, 1, ... before `end` come before `x`: x rounded
+/// up, within 0 and `end`.
 template <class V>
 [[gnu::always_inline]] inline V SamplesBefore(const V& x, const V& end) {
   constexpr double kRounds = 6755399441055744.0;  // 1.5 * 2^52: what is added to it has no fraction

@@ -16,8 +16,8 @@ constexpr double kAsked = 0.24;      // [A] set-point from which a coil is asked
 constexpr double kRangeOfNoise = 8;  // sd: of the readings of a winding whose current does not move
 constexpr double kStill = 0.25;      // of the range of its partner's
 
-/// Readings of every coil: the mean, and how far it and the one before both are from the set-point, of
-/// which the amplifier gives nothing below `least`.
+/// Readings of every coil: the mean, and how far it and the one before both are from
+/// the set-point, of which the amplifier gives nothing below `least`.
 AMBRIG_WIDE void CompareCurrents(const Lane* adc, int samples, const Lane& set_point, double least,
                                  const Lane& limit, Lane* last_miss, Lane* error,
                                  Lane* false_current) {

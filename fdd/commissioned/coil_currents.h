@@ -3,11 +3,11 @@
 /// set-points, which coils have no current although they are driven, and the reading of coils whose
 /// bridge is off.
 ///
-/// A coil without current is one that is asked for some, or whose linkage moves by less than a quarter
-/// of what its voltage would do: the diodes of a coil that is asked for none block. The c of a winding
-/// of a thrust side without current is hardly below zero, as its partner moves the flux of both: it is
-/// one that misses its set-point although it is driven at least as hard as its partner, and whose
-/// reading stands still beside the partner's ripple.
+/// A coil without current is one that is asked for some, or whose linkage moves by less
+/// than a quarter of what its voltage would do: the diodes of a coil that is asked for none block.
+/// The c of a winding of a thrust side without current is hardly below zero, as its partner moves
+/// the flux of both: it is one that misses its set-point although it is driven at least as hard as
+/// its partner, and whose reading stands still beside the partner's ripple.
 #include "fdd/circuit/flux_circuit.h"
 #include "fdd/commissioned/believed_turns.h"
 
@@ -38,9 +38,9 @@ class CoilCurrents {
   double idle(int coil) const { return idle_[coil]; }
 
  private:
-  /// Whether a winding of a thrust side misses current that its voltage would give it, had it any: the
-  /// winding that is driven at least as hard as its partner takes over what that carries more,
-  /// whatever flux both share.
+  /// Whether a winding of a thrust side misses current that its voltage would give it, had
+  /// it any: the winding that is driven at least as hard as its partner takes over what
+  /// that carries more, whatever flux both share.
   bool LeftToPartner(const MeasuredPeriod& in, int coil, const Lane& share) const;
 
   int coils_, samples_;

@@ -34,12 +34,13 @@ struct CoilEvidence {
   /// Not commissioned, out of the range, or the model's own errors show.
   bool Doubtful() const { return !Relies() || range.left() || ratios.Disturbed(); }
 
-  /// c of the on and of the off phase have one sign, and the smaller is at least 0.35 of the larger.
+  /// c of the on and of the off phase have one sign, and the smaller is at
+  /// least 0.35 of the larger.
   bool PhasesAgree(int coil) const;
   /// So small an excess is of less than a turn, which no short bypasses.
   bool LessThanATurn(int coil, double excess) const;
-  /// Whether the coil is to be blamed for this c: a second indication agrees, and the model holds or
-  /// c is gross.
+  /// Whether the coil is to be blamed for this c: a second indication agrees, and the
+  /// model holds or c is gross.
   bool Suffices(int coil, double excess) const;
   /// What has failed of a coil that is blamed; onset [s].
   Diagnosis Classify(int coil, double excess, double onset) const;

@@ -1,7 +1,8 @@
 #pragma once
-/// What a small current through a coil that was given up, or lies idle, tells of it: its slopes must again be
-/// those that its voltage makes (slope_excess.h). Healthy is only what was seen to be: the reading
-/// was zero while the bridge was off, and after the current had come, both phases had a small c.
+/// What a small current through a coil that was given up, or lies idle, tells of it: its slopes
+/// must again be those that its voltage makes (slope_excess.h). Healthy is only what was seen to
+/// be: the reading was zero while the bridge was off, and after the current had come, both phases
+/// had a small c.
 #include "fdd/circuit/slope_excess.h"
 #include "fdd/detectors/run_detector.h"
 

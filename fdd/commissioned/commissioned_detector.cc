@@ -150,8 +150,8 @@ void CommissionedDetector::Probe() {
 
 CoilVerdict CommissionedDetector::Judge(const CoilEvidence& seen) {
   const bool calm = ratios_.calm();
-  // What flux a winding of a thrust side shares with its partner may keep its c calm although it has
-  // no current.
+  // What flux a winding of a thrust side shares with its partner may keep its c calm
+  // although it has no current.
   const bool shares_flux = filter_.nominal().coupling == Coupling::kSides && currents_.AnySuspect();
   if (!calm || shares_flux)
     currents_.CountWithout(seen.in, period_, ratios_.now(), turns_.share);

@@ -25,8 +25,8 @@ class CommissionedDetector : public CoilDetector {
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
   /// Takes back what SetTurns said, and forgets what was seen of it; `share` of the turns carries.
   void Restore(int coil, double share = 1);
-  /// A current is asked of a coil that has no turns, or is asked for none: its slopes are watched, no
-  /// coil is judged.
+  /// A current is asked of a coil that has no turns, or is asked for none: its slopes
+  /// are watched, no coil is judged.
   void BeginProbe(int coil);
   /// What it showed of a coil that had turns: no current, or a gross short; else class none.
   Diagnosis EndProbe(double t);

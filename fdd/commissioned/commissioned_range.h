@@ -2,9 +2,10 @@
 /// Whether the flux of every coil is within the range that was commissioned, and from which c on a
 /// coil is gross accordingly.
 ///
-/// Lost turns make the flux that is computed too large, and that alone takes a coil outside which was
-/// near the end of its range: where it leaves the range with a jump that no voltage makes, the range
-/// is wider by that jump for the next 250 periods. Iron that saturates makes no jump.
+/// Lost turns make the flux that is computed too large, and that alone takes a coil
+/// outside which was near the end of its range: where it leaves the range with a jump that no
+/// voltage makes, the range is wider by that jump for the next 250 periods. Iron that saturates
+/// makes no jump.
 #include "fdd/commissioned/believed_turns.h"
 #include "fdd/commissioned/jump_watch.h"
 #include "fdd/learning/commissioned_model.h"

@@ -1,8 +1,8 @@
 #pragma once
 /// When slow drift (slow_drift.h) is followed: as long as nothing is doubted and every ratio of the
-/// long windows is below 0.5. What has drifted while the machine stood still is in c from the start:
-/// after the first 40 undisturbed periods, and after 160 more, it is taken off at once, unless a
-/// shorter window is beyond its band or this one beyond 1.5 of it.
+/// long windows is below 0.5. What has drifted while the machine stood still is in c
+/// from the start: after the first 40 undisturbed periods, and after 160 more, it is taken off at
+/// once, unless a shorter window is beyond its band or this one beyond 1.5 of it.
 #include "fdd/commissioned/excess_bands.h"
 #include "fdd/commissioned/excess_windows.h"
 #include "fdd/commissioned/slow_drift.h"

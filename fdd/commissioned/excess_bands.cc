@@ -28,8 +28,8 @@ ExcessBands::ExcessBands(const LinkageModel& nominal, const CommissionedBearing&
 double ExcessBands::LossOf(double share) { return std::min(1.0, (1 - share) / kGreatLoss); }
 
 double ExcessBands::LeastBand(int coil, int window, const Lane& share) const {
-  // Errors of the share that a coil is believed to have left are in the c of all others, and most of
-  // all in those of a winding on the same core.
+  // Errors of the share that a coil is believed to have left are in the c of all others,
+  // and most of all in those of a winding on the same core.
   double least = 0;
   for (int j = 0; j < nominal_.coils; ++j)
     if (share[j] > 0)

@@ -7,7 +7,8 @@ namespace ambrig {
 /// sum w d^2 of a coil that is judged, at least.
 inline constexpr double kJudgedWeight = 0.5;
 
-/// Directions that are common to the bearing, orthonormal, and one over what they leave of a fault's c in every coil.
+/// Directions that are common to the bearing, orthonormal, and one over what they leave of a
+/// fault's c in every coil.
 struct Projection {
   const Lane* basis;
   int directions;

@@ -13,10 +13,11 @@ constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
 constexpr double kGrossBand = 0.1;     // of |c| beyond what is gross, against the windows'
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
-// least band of c < 0: a reading that is low by less is no reason to give up a coil, and no turns are
-// lost that way
+// least band of c < 0: a reading that is low by less is no reason to give up a coil, and
+// no turns are lost that way
 constexpr double kLeastBelow = 0.08;
-// of a winding of a thrust side: where its iron saturates, turns lost by the partner make its c negative
+// of a winding of a thrust side: where its iron saturates, turns lost by the partner make
+// its c negative
 constexpr double kLeastBelowOnOneCore = 0.15;
 
 struct PeriodLimits {

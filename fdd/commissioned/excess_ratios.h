@@ -1,9 +1,11 @@
 #pragma once
-/// How far every coil of a bearing is beyond what is healthy, period by period: the largest |c|/band
-/// over the windows (excess_windows.h), and |c| over 0.1 where c of one period alone is gross.
+/// How far every coil of a bearing is beyond what is healthy, period by period:
+/// the largest |c|/band over the windows (excess_windows.h), and |c| over 0.1 where c of one period
+/// alone is gross.
 ///
-/// Nearly every period is calm: no c as it is measured, before its common part is taken off, is beyond
-/// a band. That is told without a division, and leaves the ratios of the windows out.
+/// Nearly every period is calm: no c as it is measured, before its common part is taken
+/// off, is beyond a band. That is told without a division, and leaves the ratios of
+/// the windows out.
 #include <array>
 
 #include "fdd/commissioned/excess_bands.h"

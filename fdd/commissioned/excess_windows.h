@@ -31,8 +31,8 @@ class ExcessWindows {
   Lane Used(int w, double noisiest) const;
   /// The same over every window, whose noise is at most its least band over `below`.
   void UsedOfAll(double below, Lane (&used)[kExcessWindows]) const;
-  /// Whether surely no used |c| is above its band, nor Pattern(w) above `pattern`: told from the raw c, which is never
-  /// smaller. False says nothing.
+  /// Whether surely no used |c| is above its band, nor Pattern(w) above `pattern`: told from the
+  /// raw c, which is never smaller. False says nothing.
   bool Calm(const Lane (&band)[kExcessWindows], int w, double pattern) const;
   Lane Raw(int w) const;
   /// c of one phase of one coil over the last `periods` <= 40; 0: not judged.

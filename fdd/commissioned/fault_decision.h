@@ -26,16 +26,16 @@ class FaultDecision {
   void CountStreaks(const CoilEvidence& seen);
   /// Share of its turns that a coil truly has that is taken for one with fewer; 0: not so.
   double MoreTurns(const CoilEvidence& seen, int coil, double excess) const;
-  /// Which coils have failed, all judged together: no current, or shares of their turns that explain
-  /// all c. False: no such explanation.
+  /// Which coils have failed, all judged together: no current, or shares of their
+  /// turns that explain all c. False: no such explanation.
   bool JudgedTogether(const CoilEvidence& seen, CoilVerdict* out) const;
   std::vector<Diagnosis> CoilsWithoutCurrent(const CoilEvidence& seen) const;
-  /// Whether turns were lost on the same thrust core a short time ago. Two windings of one flux that
-  /// are named in turns say that the model errs.
+  /// Whether turns were lost on the same thrust core a short time ago. Two windings of
+  /// one flux that are named in turns say that the model errs.
   bool ShortedAgain(const CoilEvidence& seen, const Diagnosis& d) const;
   /// Whether a small short is not named yet, because another coil is about to stand out as much: of
-  /// two that lost turns at one instant each hides a part of the other, and after the first is named
-  /// the windows of the second begin again.
+  /// two that lost turns at one instant each hides a part of the other, and after the
+  /// first is named the windows of the second begin again.
   bool AwaitsCompanion(const CoilEvidence& seen, const Diagnosis& d, double excess) const;
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(const CoilEvidence& seen, int decided, double excess) const;

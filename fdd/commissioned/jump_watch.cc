@@ -42,8 +42,8 @@ int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now) {
     onset_ = in.t;
     return -1;
   }
-  // What jumps again is a current of its own shape, or swings with that of another coil. A loop may take back in the next
-  // period what it made of the step.
+  // What jumps again is a current of its own shape, or swings with that of another coil. A loop may
+  // take back in the next period what it made of the step.
   const bool again = ++periods_ == 1 ? jumps_[coil_] * step_ > 0 : largest >= 0;
   if (again || (periods_ == 1 && !Confirmed(in))) {
     coil_ = -1;

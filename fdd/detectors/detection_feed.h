@@ -29,8 +29,8 @@ class DetectionFeed {
 
   /// A new period; then Period(k) of every bearing.
   void Read(const PeriodMeasurement& m);
-  /// Without its position a bearing's inductances are not known: nothing is comparable then, nor while the
-  /// bus is below half of its nominal voltage.
+  /// Without its position a bearing's inductances are not known: nothing is comparable then,
+  /// nor while the bus is below half of its nominal voltage.
   MeasuredPeriod Period(std::size_t bearing, const PeriodMeasurement& m) const;
 
   /// Names of the axes whose readings became faulty since the last call.

@@ -56,7 +56,8 @@ class RunDetector {
   virtual bool doubtful() const { return false; }
 
   /// A look at a coil that was given up, or that its loop asks for no current: from the next period
-  /// on a small current is asked of it. Returns false where the detector cannot take one. No coil is diagnosed meanwhile.
+  /// on a small current is asked of it. Returns false where the detector cannot take one. No coil
+  /// is diagnosed meanwhile.
   virtual bool BeginProbe(int) { return false; }
   /// What the probe that runs has shown so far.
   virtual ProbeAnswer Probed() const { return ProbeAnswer::kNone; }

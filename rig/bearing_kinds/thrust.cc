@@ -16,8 +16,8 @@ double ThrustForceConstant(const BearingParameters& b) {
 }
 
 /// Ampere-turns 2 (c0 ± v) of a side are shared in proportion to the turns that are left. A side
-/// without turns: the other one pulls for forces its own way only, and has no bias, which would press
-/// the shaft to its stop. Twice v then gives the largest force of before.
+/// without turns: the other one pulls for forces its own way only, and has no bias,
+/// which would press the shaft to its stop. Twice v then gives the largest force of before.
 std::string ShareSides(const BearingParameters&, const CoilVector& turns_left, CurrentMap& map) {
   const auto turns = [&](int side) { return turns_left[2 * side] + turns_left[2 * side + 1]; };
   const bool one_way = turns(0) == 0 || turns(1) == 0;

@@ -1,7 +1,7 @@
 #pragma once
-/// What distinguishes the kinds of bearing, one file per kind beside this one: axes, keys of the rig
-/// file, nominal figures, what is left of it after failures, and its parts of the plant. Everything
-/// else asks this table what a bearing can do, not which one it is.
+/// What distinguishes the kinds of bearing, one file per kind beside this one: axes, keys
+/// of the rig file, nominal figures, what is left of it after failures, and its parts of
+/// the plant. Everything else asks this table what a bearing can do, not which one it is.
 #include <array>
 #include <span>
 #include <string>
@@ -46,14 +46,16 @@ struct BearingKind {
   double (*force_constant)(const BearingParameters& b);  // k of f = k c0 v [N/A²]
   /// Its own bias current [A]; nan: the controller's.
   double (*own_bias)(const BearingParameters& b);
-  /// What must hold between it and the controller's bias current [A], and its bridges; may be empty.
+  /// What must hold between it and the controller's bias current [A], and its bridges;
+  /// may be empty.
   void (*check)(const TomlTable& t, const BearingParameters& b, double bias,
                 bool unipolar) = nullptr;
-  /// Of any stator: its healthy map, at this bias current [A] of the controller; nullptr: coil j takes
-  /// [1, cos γ, sin γ].
+  /// Of any stator: its healthy map, at this bias current [A] of the controller; nullptr:
+  /// coil j takes [1, cos γ, sin γ].
   BiasLinearisation (*linearise)(const BearingParameters& b, double bias) = nullptr;
-  /// Of a bearing without eight poles, unless it has `linearise`: changes the distribution matrix of `map` to what these shares
-  /// of the coils' turns can do; says how much that is: "exact", "one way" or "none".
+  /// Of a bearing without eight poles, unless it has `linearise`: changes the distribution matrix
+  /// of `map` to what these shares of the coils' turns can do; says how much that is: "exact", "one
+  /// way" or "none".
   std::string (*redistribute)(const BearingParameters& b, const CoilVector& turns_left,
                               CurrentMap& map) = nullptr;
 

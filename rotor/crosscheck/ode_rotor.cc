@@ -20,7 +20,8 @@ constexpr double kNoMass = 1e-4;        // [kg] a turning race without a mount b
 
 Vector3d Radial(const DofVector& q, int d) { return {q[AsSize(d)], q[AsSize(d) + 1], 0}; }
 
-/// The least rotation that brings the z axis to e, |e| = 1, e_z > 0: half the angle between them, about their product.
+/// The least rotation that brings the z axis to e, |e| = 1, e_z > 0: half the angle between them,
+/// about their product.
 Eigen::Quaterniond TiltOfZ(const Vector3d& e) {
   const double s = std::sqrt((1 + e.z()) * 2);
   const double inverse = 1 / s;

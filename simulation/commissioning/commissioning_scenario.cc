@@ -52,8 +52,8 @@ void AddTones(const RigParameters& rig, const CommissioningPlan& plan, Scenario*
     }
 }
 
-/// Currents that move the potential of a floating rotor and nothing else: s_j i_j of all coils alike, no
-/// flux, no force. Only they tell leakage past the rotor from fringing into it.
+/// Currents that move the potential of a floating rotor and nothing else: s_j i_j of all
+/// coils alike, no flux, no force. Only they tell leakage past the rotor from fringing into it.
 void AddPotentialChirp(const RigParameters& rig, const CommissioningPlan& plan, Scenario* s) {
   for (const BearingParameters& b : rig.bearings) {
     const StatorGeometry stator = b.kind->stator(b);

@@ -1,8 +1,8 @@
 #pragma once
 /// Two independent models of contact: one scenario through the switching engine with the rotor of
-/// rotor/motion/rotor_model.h (compliant contact) and with that of rotor/crosscheck/ode_rotor.h (rigid
-/// bodies of the Open Dynamics Engine). Magnets, loops, sensors, faults and detection are the same
-/// in both and closed round either rotor.
+/// rotor/motion/rotor_model.h (compliant contact) and with that of rotor/crosscheck/ode_rotor.h
+/// (rigid bodies of the Open Dynamics Engine). Magnets, loops, sensors, faults and detection
+/// are the same in both and closed round either rotor.
 ///
 /// A third run, the compliant model with another seed of the noise, shows what a difference of
 /// nothing grows to: bouncing is unstable, so paths part after some impacts whatever integrates

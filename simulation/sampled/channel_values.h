@@ -49,7 +49,8 @@ class ChannelValues {
   /// All channels in the order of a record: readings, then per bearing the kinds of `of_bearings`,
   /// stations, speed, angle, bus.
   std::vector<Named> Columns(const std::vector<ChannelKind>& of_bearings, bool stations) const;
-  /// In period n. A reading is the controller's own at its tick; `ahead`: the tick is still to come.
+  /// In period n. A reading is the controller's own at its tick; `ahead`: the tick is
+  /// still to come.
   double At(const Column& column, long long n, bool ahead = false) const;
   /// Where what `At` gives of a column stands during the whole run; nullptr: it has to be computed.
   const double* Place(const Column& column) const;

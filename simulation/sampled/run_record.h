@@ -9,8 +9,8 @@ namespace ambrig {
 
 class RunRecord {
  public:
-  /// `rate` [Hz]; 0: the scenario's. `clamped` runs have load cells in place of true positions. `only`:
-  /// the channels to record, those of them that there are; empty: all.
+  /// `rate` [Hz]; 0: the scenario's. `clamped` runs have load cells in place of
+  /// true positions. `only`: the channels to record, those of them that there are; empty: all.
   RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped,
             const std::vector<std::string>& only, const RowSource& source);
 
