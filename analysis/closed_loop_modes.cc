@@ -7,6 +7,7 @@
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
 #include "rig/parameters/bearing_kind.h"
+#include "rotor/motion/linearise.h"
 
 namespace ambrig {
 

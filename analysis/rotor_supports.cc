@@ -9,6 +9,7 @@
 #include "rig/parameters/bearing_kind.h"
 #include "rig/parameters/rig_rotor.h"
 #include "rig/rig_assembly.h"
+#include "rotor/motion/linearise.h"
 #include "rotor/shaft/reduction.h"
 
 namespace ambrig {

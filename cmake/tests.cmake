@@ -68,6 +68,8 @@ add_test(NAME unity_names COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tool
 # No file over 300 lines, no function over 60.
 add_test(NAME sizes COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_sizes.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# Tests lie where their sources do.
+add_test(NAME tests_mirror COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_tests.py)
 # One version, that of CMakeLists.txt.
 add_test(NAME version COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_version.py)
 # Equations in comments stand on lines of their own.

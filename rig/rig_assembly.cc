@@ -5,7 +5,7 @@
 
 #include "effects/catalogue.h"
 #include "rig/parameters/bearing_kind.h"
-#include "rotor/linear/linear_rotor.h"
+#include "rotor/motion/linearise.h"
 #include "rotor/shaft/support_term.h"
 
 namespace ambrig {

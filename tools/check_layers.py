@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Checks who includes whom (docs/architecture.md). Run by ctest, with --self-test too.
 
-Three rules over every #include of the sources, and one over their text:
+Four rules over every #include of the sources, and one over their text:
   layers   a room includes from itself and from the rooms that MAY_INCLUDE names;
+  rooms    the folders inside a folder of ROOMED (and its own files, as one more) depend on each other one way
+           only: no room is reached again from what it includes;
   bans     what runs in the controller never includes a header of the plant (BANNED), not even
            through another header, where it would be in sight all the same;
   doors    a library is included by the files that DOORS names and by no other;
@@ -38,6 +40,10 @@ MAY_INCLUDE = {
     "app": "core fmu control effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd workbench",
     "bench": "core actuators rotor control fdd faulttolerance effects rig scenarios simulation discovery campaign",
 }
+
+# Folders whose rooms may not depend in circles.
+ROOMED = """core actuators rotor control effects rig fdd faulttolerance scenarios simulation analysis campaign design fmu
+workbench app""".split()
 
 # Headers of the plant: the bridge, the magnetics that are simulated, the moving rotor and its contacts,
 # the speed sensor, the true rig, what puts faults in.
@@ -146,9 +152,53 @@ def asks_which_kind(file, text):
             for n, line in enumerate(text.splitlines(), 1) if WHICH_KIND.search(line)]
 
 
+def inner_room(path):
+    """core/math of core/math/fft.h; the folder itself of a file that lies in no room."""
+    return "/".join(path.split("/")[:2]) if path.count("/") > 1 else path.split("/")[0]
+
+
+def room_edges(folder, includes):
+    """Room -> {room that it includes from: (file, line, included path)}, of the rooms of one folder."""
+    edges = {}
+    for file, lines in includes.items():
+        for number, own, path in lines if file.startswith(folder + "/") else []:
+            ends = inner_room(file), inner_room(path)
+            if own and path.startswith(folder + "/") and ends[0] != ends[1]:
+                edges.setdefault(ends[0], {}).setdefault(ends[1], (file, number, path))
+    return edges
+
+
+def circle_from(start, edges):
+    """Rooms of the shortest way from a room back to it, [] when there is none."""
+    ways, seen = [[start]], {start}
+    for way in ways:
+        for room in edges.get(way[-1], {}):
+            if room == start:
+                return [*way, start]
+            if room not in seen:
+                seen.add(room)
+                ways.append([*way, room])
+    return []
+
+
+def circles(folder, includes):
+    """A line for every include on a circle of rooms; each circle is told once."""
+    bad, told = [], set()
+    edges = room_edges(folder, includes)
+    for start in sorted(edges):
+        circle = circle_from(start, edges)
+        if not circle or told & set(circle):
+            continue
+        told |= set(circle)
+        for a, b in zip(circle, circle[1:]):
+            file, number, path = edges[a][b]
+            bad.append(f"{file}:{number}: includes {path}, and rooms depend in a circle: {' -> '.join(circle)}")
+    return bad
+
+
 def dead_names(exists):
     """Rooms, banned headers and doors that this file names and that do not exist."""
-    named = {*MAY_INCLUDE, *PLANT_HEADERS, *(door for doors in DOORS.values() for door in doors)}
+    named = {*MAY_INCLUDE, *ROOMED, *PLANT_HEADERS, *(door for doors in DOORS.values() for door in doors)}
     return [f"tools/check_layers.py names {name}, which does not exist" for name in sorted(named) if not exists(name)]
 
 
@@ -172,7 +222,8 @@ def check(root):
     includes = includes_of(root)
     named = dead_names(lambda name: (root / name).exists())
     kinds = [b for f in includes for b in asks_which_kind(f, (root / f).read_text())]
-    return named + [b for f in includes for b in complaints(f, includes)] + kinds
+    rooms = [b for folder in ROOMED for b in circles(folder, includes)]
+    return named + [b for f in includes for b in complaints(f, includes)] + rooms + kinds
 
 
 def self_test(root):
@@ -195,6 +246,12 @@ def self_test(root):
         planted = {**sources, path: [(1, match[1] == '"', match[2])]}
         if not any(b.startswith(path + ":1:") and complaint in b for b in complaints(path, planted)):
             missed.append(f"not caught: {line} in {path}")
+    for folder, file, header in (("core", "core/base/planted.cc", "core/record/record.h"),
+                                 ("simulation", "simulation/record/planted.h", "simulation/simulate.h"),
+                                 ("rig", "rig/parameters/planted.h", "rig/rig_file.h")):
+        planted = {**includes_of(root), file: [(1, True, header)]}
+        if not any(b.startswith(file + ":1:") for b in circles(folder, planted)):
+            missed.append(f"not caught: a circle of rooms by {header} in {file}")
     for line in ('if (b.kind->name == "radial") return;', "return bearing.kind != &ThrustBearing();",
                  'const bool z = b.kind == FindBearingKind("thrust");'):
         if not asks_which_kind("fdd/planted.cc", line) or asks_which_kind("rig/bearing_kinds/planted.cc", line):

@@ -23,9 +23,6 @@
 
 namespace ambrig {
 
-class RotorModel;
-struct PlaneMap;
-
 /// Forces at one plane come in by B (dofs x axes), displacements there are read by C (axes x dofs).
 struct LinearPort {
   std::string name;      // of the bearing
@@ -40,17 +37,5 @@ struct LinearRotor {
   std::vector<std::array<int, 2>> xy;  // (x, y) pairs of displacements, for the sense of whirl
   std::vector<LinearPort> ports;       // of a rig: one per bearing
 };
-
-/// A rotor as the engines run it, straight and centred, no contact, its force terms (effects)
-/// differentiated there; what they push while nothing moves (unbalance) is left out. No ports.
-/// `speed` [rad/s] matters for terms that depend on it; G is to be multiplied by it by the reader.
-LinearRotor Linearise(const RotorModel& model, double speed = 0);
-
-/// Displacement (x, y) of a plane as rows over the model's coordinates (2 x dofs).
-Eigen::MatrixXd PlaneRows(const RotorModel& model, const PlaneMap& plane);
-
-/// How a force (fx, fy) of the stator at a plane enters (dofs x 2), its reaction on a base
-/// included.
-Eigen::MatrixXd ForceColumns(const RotorModel& model, const PlaneMap& plane);
 
 }  // namespace ambrig

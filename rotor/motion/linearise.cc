@@ -1,6 +1,4 @@
-#include "rotor/linear/linear_rotor.h"
-
-#include "rotor/motion/rotor_model.h"
+#include "rotor/motion/linearise.h"
 
 namespace ambrig {
 namespace {

@@ -7,7 +7,8 @@
 ///
 ///   q' = v + 2 ζ ω K e,  v' = M⁻¹ Q + ω² K e,   e = measured - predicted reading
 ///
-/// with K: displacements from readings, ω of `observer` and ζ = 0.7. A force error ΔF shows as e = ΔF/(m (s² + 2 ζ ω s + ω²)).
+/// with K: displacements from readings, ω of `observer` and ζ = 0.7. A force error ΔF shows as
+/// e = ΔF/(m (s² + 2 ζ ω s + ω²)).
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 /// The linear equations say what the nonlinear rotor does for small motion: accelerations of
 /// RotorModel at small random states and forces, for every kind of moving part.
-#include "rotor/linear/linear_rotor.h"
+#include "rotor/motion/linearise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/figures/explain_figures.h"
+#include "app/pages/explain_figures.h"
 
 #include <fmt/format.h>
 
