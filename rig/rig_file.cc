@@ -203,11 +203,7 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
   if (thrust > 1) all->Fail("", "at most one thrust bearing");
 }
 
-// Of a rig file that names none: it does no harm to healthy machines that are not their model.
-constexpr const char* kDefaultDetector = "commissioned";
-
 void ReadDetection(const TomlTable& root, DetectionParameters& d) {
-  d.kind = kDefaultDetector;
   const auto t = root.Table("detection");
   if (!t) return;
   d.kind = t->String("kind", d.kind);

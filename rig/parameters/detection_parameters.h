@@ -9,7 +9,8 @@
 namespace ambrig {
 
 struct DetectionParameters {
-  std::string kind = "coupled";
+  // It does no harm to healthy machines that are not their model.
+  std::string kind = "commissioned";
   double threshold = 0;       // of the detector's statistic; 0: the catalogue's
   double computing_time = 0;  // [s] from the end of a period to the actions that follow from it
   std::string commissioning;  // file of a commissioned detector, beside the rig file; may be empty

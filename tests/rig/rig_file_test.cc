@@ -122,6 +122,11 @@ TEST(RigFile, TheDetectorRemembersItsLine) {
   EXPECT_THAT(rig.detection.where, HasSubstr("detection.kind"));
 }
 
+// A rig that a program fills itself is watched as one whose file names no detector.
+TEST(RigFile, TheDefaultDetectorIsThatOfTheParameters) {
+  EXPECT_EQ(Read(ReferenceRigText()).detection.kind, RigParameters().detection.kind);
+}
+
 TEST(RigFile, TheSpeedSensorHasWholePulses) {
   const std::string sensor = "\n[speed_sensor]\npulses_per_revolution = ";
   EXPECT_EQ(Read(ReferenceRigText() + sensor + "60.0\n").speed_sensor.pulses_per_revolution, 60);
