@@ -197,6 +197,8 @@ std::string EventText(const RunEvent& e) {
     text += " (no currents of the coils that are left give the forces)";
   if (e.kind == "not_redistributed" && text == "own set-points")
     text += " (the controller commands currents itself)";
+  if (e.kind == "not_redistributed" && text == "nothing else carries")
+    text = "coil kept in spite of its reading, nothing else carries";
   if (e.kind == "doubtful") text += ": gross faults only";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);

@@ -29,13 +29,18 @@ class CoilProbes {
   /// infinity before one whole slice has been seen: a rotor that has just been lifted may swing.
   double Motion() const;
   void GivenUp(int coil, FaultClass cls, double t);
+  /// A coil is driven as one with fewer turns from t on. `room`: of the rotor at the bearing [m].
+  void Derated(int coil, double t, double room);
+  /// The coil after whose derating the orbit grew within 10 ms, by half and by 4 % of the rotor's
+  /// room; -1: none. Told once.
+  int MadeWorse(double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);
   /// What Idle was last told of `coil`.
   bool idle(int coil) const { return idle_[static_cast<std::size_t>(coil)].idle; }
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;
-  /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
+  /// Whether `coil` was given up because the reading of its current was wrong: a test current is an
   /// indication then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
   /// Whether another coil of the bearing waits for its probes after a false reading of its
@@ -61,6 +66,10 @@ class CoilProbes {
     bool false_current = false;
     bool disputed = false;  // a look found it healthy, in doubt
   };
+  /// Of a coil that was derated.
+  struct Derating {
+    double at = 0, before = 0, after = 0, least_growth = 0;  // [s], [m]
+  };
   bool FalseCurrentIsOpen(int coil) const;
   bool Grown(const Look& look) const;
   int DueIdle(double t) const;
@@ -73,6 +82,7 @@ class CoilProbes {
   std::array<IdleTime, kLanes> idle_;
   double idle_again_ = 0;  // no idle coil is probed before [s]
   std::map<int, Look> looks_;
+  std::map<int, Derating> deratings_;
   Lane returned_;          // 1: came back once
   Lane refuted_;           // 1: came back though the reading of its current was called wrong
   double slice_ends_ = 0;  // [s]

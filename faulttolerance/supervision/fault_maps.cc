@@ -81,6 +81,7 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   }
   if (!w.bearing->kind->eight_poles) {
     map->W = w.healthy->W;
+    map->unipolar = w.healthy->unipolar;
     return w.bearing->kind->redistribute(*w.bearing, w.turns_left, *map);
   }
   if (!w.table)

@@ -62,6 +62,7 @@ Diagnosis CoilEvidence::Classify(int coil, double excess, double onset) const {
   d.time = in.t + sampling.samples * sampling.step;
   d.onset = onset;
   d.confidence = 1;
+  d.excess = excess;
   const double on = ratios.windows().OfPhase(coil, 0, 3),
                off = ratios.windows().OfPhase(coil, 1, 3);
   if (flux.largest[coil] < kConducts) {

@@ -8,7 +8,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
-constexpr int kAfterProbe = 8, kAfterShare = 25;                    // periods
+constexpr double kLeastProbeBand = 0.08, kOfGivenUp = 0.5;  // of |c| that it was given up for
+constexpr int kAfterProbe = 8, kAfterShare = 25;            // periods
 
 }  // namespace
 
@@ -38,19 +39,29 @@ void CommissionedDetector::Restore(int coil, double share) {
   TakeShare(coil, share);
 }
 
+bool CommissionedDetector::SomeHaveFewer() const {
+  return std::any_of(turns_.share.v, turns_.share.v + kLanes,
+                     [](double share) { return share > 0 && share < 1; });
+}
+
 void CommissionedDetector::TakeShare(int coil, double share) {
   turns_.share[coil] = share;
   turns_.taken[coil] = count_;
   filter_.SetTurns(coil, share);
   ratios_.ClearWindows();
+  // Turns that close through a resistance carry a current of their own, which no share expresses.
+  ratios_.TakeSense(filter_.nominal().coupling == Coupling::kFloatingRotor && SomeHaveFewer());
   bands_.Set(model_, turns_);
   Pause(kAfterShare);
 }
 
-void CommissionedDetector::BeginProbe(int coil) {
+void CommissionedDetector::BeginProbe(int coil, double given_up) {
   // A working coil may carry a little current.
   const double idle = share(coil) > 0 ? 0 : currents_.idle(coil);
-  probe_.Begin(coil, idle, model_.usable() ? kProbeBand : kUncommissionedProbeBand);
+  double band = model_.usable() ? kProbeBand : kUncommissionedProbeBand;
+  if (model_.usable() && given_up != 0)
+    band = std::clamp(kOfGivenUp * std::abs(given_up), kLeastProbeBand, band);
+  probe_.Begin(coil, idle, band);
   filter_.SetTurns(coil, share(coil) > 0 ? share(coil) : 1);
   decision_.ForgetStreaks();
 }

@@ -25,9 +25,10 @@ class CommissionedDetector : public CoilDetector {
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
   /// Takes back what SetTurns said, and forgets what was seen of it; `share` of the turns carries.
   void Restore(int coil, double share = 1);
-  /// A current is asked of a coil that has no turns, or is asked for none: its slopes
-  /// are watched, no coil is judged.
-  void BeginProbe(int coil);
+  /// A current is asked of a coil that has no turns, or is asked for none: its slopes are watched,
+  /// no coil is judged. `given_up`: c that it was given up for, which a healthy coil must be well
+  /// below; 0: not for its c [-].
+  void BeginProbe(int coil, double given_up = 0);
   /// What it showed of a coil that had turns: no current, or a gross short; else class none.
   Diagnosis EndProbe(double t);
   const CoilProbe& probe() const { return probe_; }
@@ -46,6 +47,8 @@ class CommissionedDetector : public CoilDetector {
   const Lane& now() const { return ratios_.now(); }
 
  private:
+  /// Whether a coil has lost turns, but not all.
+  bool SomeHaveFewer() const;
   /// A coil has other turns left than believed: means and bands begin again.
   void TakeShare(int coil, double share);
   /// A period of which nothing can be concluded.

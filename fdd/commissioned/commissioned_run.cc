@@ -6,7 +6,8 @@ namespace ambrig {
 
 namespace {
 constexpr double kMostTakenBack = 3;  // losses of turns of one coil, the next one is final
-}
+constexpr long long kRefused = 2500;  // periods in which the same is not concluded again
+}  // namespace
 
 CommissionedRun::CommissionedRun(const CoilDetectorSetup& setup,
                                  const CommissionedBearing& commissioned)
@@ -16,10 +17,15 @@ CommissionedRun::CommissionedRun(const CoilDetectorSetup& setup,
 
 DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   DetectorAlarm alarm;
+  ++count_;
   const CoilVerdict seen = watch_.Watch(in);
   doubtful_ = seen.doubtful && !seen.decided;
   if (!seen.decided) return alarm;
   const Diagnosis& d = seen.diagnosis;
+  if (seen.turns == 0 && WasRefused(d)) {
+    doubtful_ = true;
+    return alarm;
+  }
   alarm.coil = d.coil;
   if (seen.turns > 0 && taken_back_[d.coil] < kMostTakenBack) {
     alarm.restored = seen.turns;
@@ -38,11 +44,25 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
 
 void CommissionedRun::Lose(const Diagnosis& d) {
   share_[d.coil] = d.cls == FaultClass::kPartialShort ? share_[d.coil] * (1 - d.fraction) : 0;
+  given_up_[d.coil] = d.excess;
   watch_.SetTurns(d.coil, share_[d.coil]);
 }
 
+bool CommissionedRun::WasRefused(const Diagnosis& d) const {
+  return d.cls != FaultClass::kOpen && count_ < refused_until_[d.coil];
+}
+
+void CommissionedRun::SetTurns(int coil, double share) {
+  if (share > share_[coil]) refused_until_[coil] = count_ + kRefused;
+  share_[coil] = share;
+  if (share > 0)
+    watch_.Restore(coil, share);
+  else
+    watch_.SetTurns(coil, 0);
+}
+
 bool CommissionedRun::BeginProbe(int coil) {
-  watch_.BeginProbe(coil);
+  watch_.BeginProbe(coil, share_[coil] > 0 ? 0 : given_up_[coil]);
   return true;
 }
 

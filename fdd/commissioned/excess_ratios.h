@@ -37,6 +37,7 @@ class ExcessRatios {
   void ClearWindows() { windows_.Clear(); }
   void Leave(int coil) { windows_.Leave(coil); }
   void Return(int coil) { windows_.Return(coil); }
+  void TakeSense(bool taken) { windows_.TakeSense(taken); }
   const ExcessWindows& windows() const { return windows_; }
 
   const Lane& ratio() const { return ratio_; }

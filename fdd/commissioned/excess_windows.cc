@@ -37,36 +37,58 @@ void ExcessWindows::Return(int coil) {
   Basis();
 }
 
+void ExcessWindows::TakeSense(bool taken) {
+  sense_ = taken;
+  Basis();
+}
+
+void ExcessWindows::AddDirection(const Lane& direction) {
+  Lane b;
+  for (int j = 0; j < kLanes; ++j) b[j] = direction[j] * judged_[j];
+  for (int d = 0; d < directions_; ++d) {
+    const double along = Dot(basis_[d], b);
+    for (int j = 0; j < kLanes; ++j) b[j] -= along * basis_[d][j];
+  }
+  const double square = Dot(b, b);
+  if (square < kSame) return;
+  double most = 0;
+  for (double& v : b.v) {
+    v /= std::sqrt(square);
+    most = std::max(most, std::abs(v));
+  }
+  largest_[directions_] = most;
+  basis_[directions_++] = b;
+}
+
+double ExcessWindows::ShareLeft(int coil) const {
+  double share = judged_[coil];
+  for (int d = 0; d < directions_; ++d) share -= basis_[d][coil] * basis_[d][coil];
+  const LossExcess loss = ExcessOfLoss(model_, coil);
+  if (loss.partner > 0 && judged_[coil ^ 1] > 0)
+    for (int d = 0; d < directions_; ++d)
+      share -= loss.partner / loss.own * basis_[d][coil] * basis_[d][coil ^ 1];
+  return share;
+}
+
 void ExcessWindows::Basis() {
   directions_ = 0;
   inverse_share_ = Lane{};
   const double coils = Dot(judged_, judged_);
   if (coils < kFewestForPattern) return;
-  const Lane wanted[3] = {judged_, model_.direction_x, model_.direction_y};
-  for (const Lane& one : wanted) {
-    Lane b;
-    for (int j = 0; j < kLanes; ++j) b[j] = one[j] * judged_[j];
-    for (int d = 0; d < directions_; ++d) {
-      const double along = Dot(basis_[d], b);
-      for (int j = 0; j < kLanes; ++j) b[j] -= along * basis_[d][j];
-    }
-    const double square = Dot(b, b);
-    if (square < kSame) continue;
-    double most = 0;
-    for (double& v : b.v) {
-      v /= std::sqrt(square);
-      most = std::max(most, std::abs(v));
-    }
-    largest_[directions_] = most;
-    basis_[directions_++] = b;
+  AddDirection(judged_);
+  AddDirection(model_.direction_x);
+  AddDirection(model_.direction_y);
+  if (sense_) {
+    Lane sense;
+    for (int j = 0; j < model_.coils; ++j) sense[j] = model_.n[j] < 0 ? -1 : 1;
+    const int without = directions_;
+    AddDirection(sense);
+    // With so few coils left it would take their faults off, too.
+    for (int j = 0; j < model_.coils; ++j)
+      if (judged_[j] > 0 && ShareLeft(j) <= kLeastShare) directions_ = without;
   }
   for (int j = 0; j < kLanes; ++j) {
-    double share = judged_[j];
-    for (int d = 0; d < directions_; ++d) share -= basis_[d][j] * basis_[d][j];
-    const LossExcess loss = ExcessOfLoss(model_, j);
-    if (loss.partner > 0 && judged_[j ^ 1] > 0)
-      for (int d = 0; d < directions_; ++d)
-        share -= loss.partner / loss.own * basis_[d][j] * basis_[d][j ^ 1];
+    const double share = ShareLeft(j);
     inverse_share_[j] = share > kLeastShare ? 1 / share : 0;
   }
 }

@@ -24,6 +24,10 @@ class ExcessWindows {
   /// Coils that are not judged any more leave the pattern.
   void Leave(int coil);
   void Return(int coil);
+  /// Whether the sense of the windings counts as a pattern of the bearing, too: ampere-turns of one
+  /// coil that are not what they are taken for move the rotor's potential, which is in c of all
+  /// coils with the sign of their windings.
+  void TakeSense(bool taken);
   void Clear();
 
   /// Used c of every coil over window w, 0 while there are too few periods or where its noise is
@@ -61,10 +65,16 @@ class ExcessWindows {
   LinkageModel model_;
   std::vector<Sums> total_;
   std::vector<Phases> phases_;
+  static constexpr int kMostDirections = 4;
+  void AddDirection(const Lane& direction);
+  /// What the projection leaves of a coil's c.
+  double ShareLeft(int coil) const;
+
   Lane judged_;
-  Lane basis_[3];           // orthonormal over the judged coils
-  double largest_[3] = {};  // element of each
-  Lane inverse_share_;      // over what the projection leaves of a fault's c, 0: no projection
+  bool sense_ = false;                    // the windings' sense is taken off
+  Lane basis_[kMostDirections];           // orthonormal over the judged coils
+  double largest_[kMostDirections] = {};  // element of each
+  Lane inverse_share_;  // over what the projection leaves of a fault's c, 0: no projection
   int directions_ = 0;
   long long count_ = 0;
 };

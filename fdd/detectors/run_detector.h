@@ -55,6 +55,10 @@ class RunDetector {
   /// supervisor reports but changes no current.
   virtual bool doubtful() const { return false; }
 
+  /// The supervisor has not done what the last diagnosis of a coil says: the coil goes on with this
+  /// share of its turns, 0: switched off.
+  virtual void SetTurns(int /*coil*/, double /*share*/) {}
+
   /// A look at a coil that was given up, or that its loop asks for no current: from the next period
   /// on a small current is asked of it. Returns false where the detector cannot take one. No coil
   /// is diagnosed meanwhile.

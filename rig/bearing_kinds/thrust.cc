@@ -29,6 +29,8 @@ std::string ShareSides(const BearingParameters&, const CoilVector& turns_left, C
       map.W.row(2 * side + q) << (one_way ? 0 : scale), (side == 0 ? v : -v), 0;
     }
   }
+  // A current of the other sign would pull the same way: bridges of four quadrants could drive it.
+  if (one_way) map.unipolar = true;
   return turns(0) + turns(1) == 0 ? "none" : one_way ? "one way" : "exact";
 }
 

@@ -32,6 +32,28 @@ TEST(ExcessWindows, WhatIsCommonOrShiftsTheShaftDropsOut) {
   EXPECT_NEAR(windows.Pattern(0), 0.3, 1e-12);
 }
 
+// Ampere-turns of one coil that are not what they are taken for are in all coils, with the sense of
+// their windings: where that is taken off, too, a single coil's fault is left as large as it is.
+TEST(ExcessWindows, TheSenseOfTheWindingsDropsOutWhereItIsTaken) {
+  ExcessWindows windows(Radial());
+  windows.TakeSense(true);
+  const LinkageModel m = Radial();
+  Lane c, alone;
+  for (int j = 0; j < kLanes; ++j) c[j] = 0.1 + (m.n[j] < 0 ? -0.3 : 0.3);
+  windows.Add(PeriodOf(c, 1000), {});
+  for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(windows.Used(0, 1)[j], 0, 1e-12);
+  alone[3] = 0.4;
+  windows.Add(PeriodOf(alone, 1000), {});
+  for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(windows.Used(0, 1)[j], alone[j], 1e-12);
+  // With five coils left the faults of single ones would be taken off: the sense is not.
+  for (const int coil : {0, 1, 6}) windows.Leave(coil);
+  windows.Add(PeriodOf(alone, 1000), {});
+  EXPECT_NEAR(windows.Used(0, 1)[3], 0.4, 1e-12);
+  windows.TakeSense(false);
+  windows.Add(PeriodOf(c, 1000), {});
+  EXPECT_GT(std::abs(windows.Used(0, 1)[3]), 0.1);
+}
+
 // What is called calm has no used value beyond its band and no pattern beyond its limit, and a coil or a pattern that is
 // beyond is never called calm.
 TEST(ExcessWindows, CalmIsWhatNoUsedValueNorPatternDenies) {
