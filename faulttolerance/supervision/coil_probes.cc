@@ -14,7 +14,7 @@ constexpr double kLonger = 4;
 constexpr int kLooks = 3;
 constexpr double kIdleFirst = 10e-3, kIdleAgain = 50e-3, kBetween = 8e-3;  // [s] of idle coils
 constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of the orbit; [m]
-constexpr double kLeastOfRoom = 0.04;  // growth after a derating, of the rotor's room
+constexpr double kLeastOfRoom = 0.025;  // growth after a derating, of the rotor's room
 
 }  // namespace
 

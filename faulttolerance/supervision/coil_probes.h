@@ -31,8 +31,8 @@ class CoilProbes {
   void GivenUp(int coil, FaultClass cls, double t);
   /// A coil is driven as one with fewer turns from t on. `room`: of the rotor at the bearing [m].
   void Derated(int coil, double t, double room);
-  /// The coil after whose derating the orbit grew within 10 ms, by half and by 4 % of the rotor's
-  /// room; -1: none. Told once.
+  /// The coil after whose derating the orbit grew within 10 ms, by half and by 2.5 % of the
+  /// rotor's room; -1: none. Told once.
   int MadeWorse(double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);

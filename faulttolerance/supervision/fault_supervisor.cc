@@ -271,14 +271,14 @@ void FaultSupervisor::EndIdleProbe(Watched& w, int coil, double t, const Bearing
   if (found.cls == FaultClass::kNone) return;
   const std::string name = CoilName(w.bearing->name, coil);
   actions_.push_back({t, name, "probe", "faulty"});
-  out.events.push_back({t, "detected", name, "", 0});
-  out.events.push_back({t, "classified", name, ToText(found.cls), found.fraction});
-  // A coil that carries nothing is told without a model; the rest is not acted on in doubt.
+  // A coil that carries nothing is told without a model; the rest says nothing in doubt.
   const bool no_current = found.cls == FaultClass::kOpen || found.cls == FaultClass::kAmplifierOff;
   if (w.doubted && !no_current) {
     Refuse(w, found);
     return;
   }
+  out.events.push_back({t, "detected", name, "", 0});
+  out.events.push_back({t, "classified", name, ToText(found.cls), found.fraction});
   Disable(w, found, out);
   Redistribute(w, t, control, out);
 }

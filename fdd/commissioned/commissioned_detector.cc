@@ -40,8 +40,14 @@ void CommissionedDetector::Restore(int coil, double share) {
 }
 
 bool CommissionedDetector::SomeHaveFewer() const {
-  return std::any_of(turns_.share.v, turns_.share.v + kLanes,
-                     [](double share) { return share > 0 && share < 1; });
+  const auto* share = turns_.share.v;
+  return std::any_of(share, share + filter_.nominal().coils,
+                     [](double left) { return left > 0 && left < 1; });
+}
+
+bool CommissionedDetector::AllAreWhole() const {
+  const auto* share = turns_.share.v;
+  return std::all_of(share, share + filter_.nominal().coils, [](double left) { return left == 1; });
 }
 
 void CommissionedDetector::TakeShare(int coil, double share) {
@@ -49,8 +55,10 @@ void CommissionedDetector::TakeShare(int coil, double share) {
   turns_.taken[coil] = count_;
   filter_.SetTurns(coil, share);
   ratios_.ClearWindows();
-  // Turns that close through a resistance carry a current of their own, which no share expresses.
-  ratios_.TakeSense(filter_.nominal().coupling == Coupling::kFloatingRotor && SomeHaveFewer());
+  // Turns that close through a resistance carry a current of their own, which no share expresses;
+  // they do so too where the coil is switched off afterwards.
+  looped_ = SomeHaveFewer() || (looped_ && !AllAreWhole());
+  ratios_.TakeSense(filter_.nominal().coupling == Coupling::kFloatingRotor && looped_);
   bands_.Set(model_, turns_);
   Pause(kAfterShare);
 }

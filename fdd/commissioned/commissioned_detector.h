@@ -49,6 +49,7 @@ class CommissionedDetector : public CoilDetector {
  private:
   /// Whether a coil has lost turns, but not all.
   bool SomeHaveFewer() const;
+  bool AllAreWhole() const;
   /// A coil has other turns left than believed: means and bands begin again.
   void TakeShare(int coil, double share);
   /// A period of which nothing can be concluded.
@@ -75,6 +76,7 @@ class CommissionedDetector : public CoilDetector {
   CoilProbe probe_;
   JumpWatch jumps_;
   FaultDecision decision_;
+  bool looped_ = false;  // shorted turns of some coil may carry a current of their own
   int paused_ = 8;
   long long count_ = 0;
 };

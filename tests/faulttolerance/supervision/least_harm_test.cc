@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
+#include "core/record/channels.h"
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
 
@@ -68,8 +70,11 @@ TEST(LeastHarm, AThrustSideThatIsLeftAloneIsNotDrivenBelowZero) {
         rig, "duration = 0.2\nseed = 1\n[[load]]\nplane = \"Z\"\nforce = " + std::to_string(load) +
                  "\n[[fault]]\ntime = 0.05\ntarget = \"Z.coil1\"\nkind = \"open\"\n"
                  "[[fault]]\ntime = 0.1\ntarget = \"Z.coil2\"\nkind = \"open\"\n");
-    for (const RunEvent& e : r.events) EXPECT_NE(e.kind, "model_invalid") << load;
-    EXPECT_LT(r.metrics.max_orbit.at("Z"), 3.5e-4) << load;  // the stop, 250 um, gives way
+    for (int coil = 2; coil < 4; ++coil) {
+      const Channel* set = Find(r.record, {ChannelKind::kSetPoint, "Z", coil});
+      ASSERT_NE(set, nullptr);
+      EXPECT_GE(*std::min_element(set->samples.begin(), set->samples.end()), 0) << load << coil;
+    }
   }
 }
 
