@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/math/constants.h"
 #include "core/math/noise.h"
 
 namespace ambrig {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
 
 std::vector<double> White(std::size_t n, std::uint32_t stream) {
   std::vector<float> normals(n);

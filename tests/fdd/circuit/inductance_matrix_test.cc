@@ -20,7 +20,7 @@ TEST(InductanceMatrix, OfARadialBearingIsThatOfItsStator) {
   }
 }
 
-ThrustStatorParameters Disk() {
+ThrustStatorParameters ThrustDisk() {
   ThrustStatorParameters p;
   p.turns = 80;
   p.pole_area = 4e-4;
@@ -33,7 +33,7 @@ ThrustStatorParameters Disk() {
 
 // Two windings on a core: N² P each and between them; nothing from one side to the other.
 TEST(InductanceMatrix, OfAThrustBearingCouplesTheWindingsOfASide) {
-  const ThrustStatorParameters p = Disk();
+  const ThrustStatorParameters p = ThrustDisk();
   const LinkageModel m = MakeLinkageModel(p);
   const double z = 1e-4;
   const LinkageMatrix L = InductanceOf(m, m.Permeance(z, 0));
