@@ -6,7 +6,8 @@
 
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
+#include "rotor/motion/linearise.h"
 
 namespace ambrig {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rotor/shaft/reduction.h"
 
 namespace ambrig {

@@ -9,7 +9,7 @@
 /// out: B_r = 0, D_r = 0.
 #include <Eigen/Dense>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

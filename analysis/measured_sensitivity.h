@@ -7,7 +7,7 @@
 #include <atomic>
 #include <complex>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -112,7 +112,7 @@ class Analysis {
       for (const OrderTrack& track : sweep.tracks) {
         DisplacementRow row{track.bearing, sweep.unbalance.name, 0, 0, 'A'};
         const BearingParameters* b = out_.point.rig().Find(track.bearing);
-        row.clearance = b->auxiliary ? b->auxiliary->clearance : GapOf(*b);
+        row.clearance = ClearanceOf(*b);
         for (std::size_t k = 0; k < sweep.speed.size(); ++k)
           if (sweep.speed[k] >= o.lowest && sweep.speed[k] <= o.highest)
             row.largest = std::max(row.largest, track.amplitude[k]);

@@ -6,9 +6,10 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
+#include "rig/parameters/rig_rotor.h"
 #include "rig/rig_assembly.h"
-#include "rig/rig_rotor.h"
+#include "rotor/motion/linearise.h"
 #include "rotor/shaft/reduction.h"
 
 namespace ambrig {

@@ -6,7 +6,8 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
+#include "rig/rig_figures.h"
 #include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
@@ -61,18 +62,11 @@ std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double
   std::vector<const BearingParameters*> radial;
   for (const BearingParameters& b : rig.bearings)
     if (b.kind->two_axes) radial.push_back(&b);
-  double n = 0, sz = 0, szz = 0;
-  for (const auto* b : radial) {
-    n += 1;
-    sz += b->z;
-    szz += b->z * b->z;
-  }
+  const std::vector<double> shares = RadialShares(rig);
   const double kilogram_metre = 6350.0 / rpm * 1e-6;  // per kg of load
   double total = 0;
   for (std::size_t k = 0; k < radial.size(); ++k) {
-    const double det = n * szz - sz * sz;
-    const double load =
-        rig.rotor.mass * (det > 0 ? std::abs((szz - radial[k]->z * sz) / det) : 1 / n);
+    const double load = rig.rotor.mass * std::abs(shares[k]);
     cases[0].planes.push_back({radial[k]->z, kilogram_metre * load, 0});
     cases[1].planes.push_back({radial[k]->z, kilogram_metre * load, k % 2 == 0 ? 0 : kPi});
     total += kilogram_metre * load;

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "analysis/load_capacity.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {

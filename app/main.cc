@@ -10,8 +10,8 @@
 #include "app/commands/command.h"
 #include "app/commands/command_line.h"
 #include "app/commands/event_stream.h"
-#include "app/commands/screen.h"
 #include "app/json/provenance.h"
+#include "app/text/screen.h"
 #include "core/base/errors.h"
 #include "core/math/no_solution.h"
 

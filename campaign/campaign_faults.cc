@@ -7,7 +7,7 @@
 
 #include "campaign/campaign_values.h"
 #include "faulttolerance/redistribution/redistribution_table.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "scenarios/faults/fault_file.h"
 
 namespace ambrig {

@@ -15,7 +15,7 @@
 #include "core/base/toml_checked.h"
 #include "core/math/normal_distribution.h"
 #include "fdd/learning/commissioning_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

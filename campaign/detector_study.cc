@@ -13,7 +13,7 @@
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {

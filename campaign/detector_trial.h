@@ -13,8 +13,8 @@
 
 #include "faulttolerance/supervision/supervisor.h"
 #include "fdd/detectors/coil_detector.h"
+#include "fdd/detectors/detection_feed.h"
 #include "fdd/detectors/statistic_level.h"
-#include "fdd/measurement/detection_feed.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {

@@ -10,7 +10,7 @@
 #include "core/math/copper.h"
 #include "core/math/normal_distribution.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 #include "rig/true_rig.h"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/base/toml.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

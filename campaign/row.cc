@@ -11,7 +11,7 @@
 
 #include "campaign/drop_reason.h"
 #include "core/base/counted.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "simulation/simulate.h"
 #include "simulation/verdict/detection_score.h"
 

@@ -7,8 +7,8 @@
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/failure_map.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "scenarios/faults/fault.h"
 

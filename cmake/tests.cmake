@@ -7,7 +7,7 @@ if(AMBRIG_PRECOMPILED_HEADERS)
   ambrig_offline(ambrig_test_headers)
   target_precompile_headers(ambrig_test_headers PRIVATE ${AMBRIG_JSON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   # Chooses its instruction set before the first header.
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/core/noise_test.cc PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/core/math/noise_test.cc PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endif()
 # Folders whose tests need no other folder and no program: CI runs them under the sanitizers too (tools/run_tests.sh). With core
 # come the readers of every file format.
@@ -68,6 +68,10 @@ add_test(NAME unity_names COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tool
 # No file over 300 lines, no function over 60.
 add_test(NAME sizes COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_sizes.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# Tests lie where their sources do.
+add_test(NAME tests_mirror COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_tests.py)
+# One version, that of CMakeLists.txt.
+add_test(NAME version COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_version.py)
 # Equations in comments stand on lines of their own.
 find_package(Git QUIET)
 if(GIT_FOUND AND EXISTS ${CMAKE_SOURCE_DIR}/.git)

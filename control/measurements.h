@@ -12,7 +12,8 @@ struct BearingMeasurement {
   const Lane* adc = nullptr;   // samples k = 0..n-1 [A]
   const Lane* duty = nullptr;  // that was applied [-]
   double bus = 0;              // measured supply [V]
-  /// Whether its set-points come from its current map; false: its controller commands currents itself.
+  /// Whether its set-points come from its current map; false: its controller
+  /// commands currents itself.
   bool mapped = true;
 };
 

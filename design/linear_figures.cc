@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/synthesis/frequency_response.h"
+#include "control/linear/frequency_response.h"
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// What the linear closed loop of a rig and a controller says, sampled, at one speed.
+#include "control/linear/sampled_plant.h"
 #include "control/position/position_controller.h"
-#include "control/synthesis/sampled_plant.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -7,7 +7,7 @@
 #include "core/base/toml_edit.h"
 #include "core/record/channels.h"
 #include "design/linear_figures.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 #include "simulation/sampled/controller_setup.h"
 

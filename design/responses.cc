@@ -8,7 +8,7 @@
 #include "design/linear_figures.h"
 #include "design/pareto.h"
 #include "design/point.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "simulation/sampled/controller_setup.h"
 
 namespace ambrig {

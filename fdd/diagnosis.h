@@ -45,6 +45,7 @@ struct Diagnosis {
   double time = 0;        // of the decision [s]
   double onset = 0;       // start of the first period that looks faulty [s]
   double confidence = 0;  // probability of the class against the next best, 0..1
+  double excess = 0;      // of its linkage (fdd/circuit/slope_excess.h), 0: not known [-]
 };
 
 }  // namespace ambrig

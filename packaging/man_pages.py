@@ -32,8 +32,8 @@ def escaped(text):
     return re.sub(r"^([.'])", r"\\&\1", text, flags=re.M)
 
 
-def page(name, summary, text, see):
-    return (f'.TH {name.upper()} 1 "" "ambrig 0.1.0" "User Commands"\n.SH NAME\n{escaped(name)} \\- {escaped(summary)}\n'
+def page(name, summary, text, see, version):
+    return (f'.TH {name.upper()} 1 "" "{version}" "User Commands"\n.SH NAME\n{escaped(name)} \\- {escaped(summary)}\n'
             f".SH DESCRIPTION\n.nf\n{escaped(text.rstrip())}\n.fi\n.SH SEE ALSO\n{escaped(see)}\n")
 
 
@@ -77,6 +77,7 @@ def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     (folder / "man1").mkdir(parents=True, exist_ok=True)
     text = help_of(program)
+    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     commands = commands_of(text)
     if len(commands) < 10:
         sys.exit(f"{program} --help: only {len(commands)} commands found")
@@ -84,10 +85,10 @@ def main():
     for command, summary in commands.items():
         own = help_of(program, command)
         options[command] = options_of(own)
-        (folder / "man1" / f"ambrig-{command}.1").write_text(page(f"ambrig-{command}", summary, own, "ambrig(1)"))
+        (folder / "man1" / f"ambrig-{command}.1").write_text(page(f"ambrig-{command}", summary, own, "ambrig(1)", version))
     summary = "magnetic-bearing rigs with redundant actuators: simulate, break, compare, explain"
     (folder / "man1" / "ambrig.1").write_text(
-        page("ambrig", summary, text, ", ".join(f"ambrig-{c}(1)" for c in commands)))
+        page("ambrig", summary, text, ", ".join(f"ambrig-{c}(1)" for c in commands), version))
     (folder / "ambrig.bash").write_text(bash(commands, options))
     (folder / "_ambrig").write_text(zsh(commands, options))
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The [amplifier] of a rig file.
 #include "core/base/toml.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

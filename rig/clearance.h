@@ -1,6 +1,6 @@
 #pragma once
 /// How far the rotor can move at a bearing.
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

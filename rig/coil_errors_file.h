@@ -1,7 +1,8 @@
 #pragma once
-/// The `coil_errors` of a bearing in a rig file: { current_gain = [...], edge = [...] }, one number per coil.
+/// The `coil_errors` of a bearing in a rig file: { current_gain = [...], edge = [...] }, one
+/// number per coil.
 #include "core/base/toml.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/coil_name.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

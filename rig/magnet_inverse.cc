@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "actuators/magnetics/stator_parameters.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 
@@ -63,7 +63,8 @@ MagnetLaw LawOf(const OpposedStatorParameters& p) {
           }};
 }
 
-/// The classic kinds as the networks that they are (tests/actuators/magnetics/pole_network_test.cc).
+/// The classic kinds as the networks that they are
+/// (tests/actuators/magnetics/pole_network_test.cc).
 std::shared_ptr<const PoleNetwork> NetworkOfClassic(const BearingParameters& b) {
   StatorParameters p;
   p.leakage_inductance = p.resistance = 1;  // no force of theirs

@@ -1,7 +1,8 @@
 #pragma once
-/// Currents that give a force where the rotor is: the inverse of the nominal magnets with ideal iron. From the
-/// currents of the bias-current map, steps of least norm onto F(i, r) = f, then into the amplifiers' range.
-#include "control/position/controller_kind.h"
+/// Currents that give a force where the rotor is: the inverse of the nominal magnets with ideal
+/// iron. From the currents of the bias-current map, steps of least norm onto F(i, r) = f, then into
+/// the amplifiers' range.
+#include "control/interface/controller_kind.h"
 #include "rig/nominal_rig.h"
 
 namespace ambrig {

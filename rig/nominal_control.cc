@@ -1,6 +1,6 @@
 #include "rig/nominal_control.h"
 
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

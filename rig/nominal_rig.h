@@ -3,7 +3,7 @@
 /// calibrated values of the tolerances are not in it.
 #include <memory>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

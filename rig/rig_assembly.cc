@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rig/parameters/bearing_kind.h"
+#include "rotor/motion/linearise.h"
 #include "rotor/shaft/support_term.h"
 
 namespace ambrig {
@@ -45,8 +45,8 @@ Plant BuildPlant(const TrueRig& true_rig) {
   std::vector<std::pair<const EffectDescription*, const EffectInstance*>> live;
   for (const EffectInstance& e : rig.effects)
     if (!e.IsNull()) live.emplace_back(FindEffect(e.name), &e);
-  // In the catalogue's order: a law takes numbers of the plant that later effects change, so that a rig would depend
-  // on the order in which its file names them.
+  // In the catalogue's order: a law takes numbers of the plant that later effects change, so that a
+  // rig would depend on the order in which its file names them.
   std::stable_sort(live.begin(), live.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const BendingMode& mode : rig.modes) plant.rotor.AddBendingMode(mode);

@@ -6,7 +6,7 @@
 
 namespace ambrig {
 
-struct LinearRotor;  // rotor/motion/linear_rotor.h
+struct LinearRotor;  // rotor/linear/linear_rotor.h
 
 /// Effects whose parameters are all null are dropped, so that null means the same bits.
 Plant BuildPlant(const TrueRig& true_rig);

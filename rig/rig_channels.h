@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/record/channels.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

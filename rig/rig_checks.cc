@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/base/toml_checked.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/true_rig.h"
 
 namespace ambrig {
@@ -89,7 +89,8 @@ void CheckSpreads(const TomlTable& root, const RigParameters& rig) {
   }
 }
 
-/// Fitted values, each in its range, that contradict each other: of what the reader asks of the drawing's.
+/// Fitted values, each in its range, that contradict each other: of what the reader asks
+/// of the drawing's.
 void CheckFittedTogether(const TomlTable& root, const RigParameters& rig) {
   RigParameters plant = rig;
   for (const Tolerance& k : rig.tolerances)

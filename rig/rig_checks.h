@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/base/toml.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 
@@ -12,7 +12,8 @@ namespace ambrig {
 std::pair<double, double> ShaftExtent(const RigParameters& rig);
 
 /// Bias currents that the amplifier cannot drive, windings without a return of the flux, sensors
-/// beside the shaft, fitted values that contradict each other, an effect named twice. @throws InputError with file:line.
+/// beside the shaft, fitted values that contradict each other, an effect named twice. @throws
+/// InputError with file:line.
 void CheckRig(const TomlTable& root, const RigParameters& rig);
 
 }  // namespace ambrig

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/position/controller_kind.h"
+#include "control/interface/controller_kind.h"
 #include "core/base/coil_name.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "core/math/line_weights.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 
@@ -73,20 +74,21 @@ double LeastInductance(const BearingParameters& b) {
 
 double CoilResistance(const BearingParameters& b) { return b.kind->stator(b).resistance[0]; }
 
-std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
-  // Least-norm forces f_k with Σ f = -m g and Σ z f = 0; exact for two bearings.
-  double n = 0, sz = 0, szz = 0;
+std::vector<double> RadialShares(const RigParameters& rig) {
+  std::vector<double> places;
   for (const auto& b : rig.bearings)
-    if (b.kind->two_axes) {
-      n += 1;
-      sz += b.z;
-      szz += b.z * b.z;
-    }
+    if (b.kind->two_axes) places.push_back(b.z);
+  return LineWeights(places, 0);
+}
+
+std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
+  const std::vector<double> shares = RadialShares(rig);
+  std::size_t radial = 0;
   std::vector<std::array<double, 2>> out;
   const double m = rig.rotor.mass;
   for (const auto& b : rig.bearings) {
     if (b.kind->two_axes) {
-      const double share = (szz - b.z * sz) / (n * szz - sz * sz);
+      const double share = shares[radial++];
       out.push_back({-m * rig.gravity[0] * share, -m * rig.gravity[1] * share});
     } else {
       const std::array<double, 3> axis = b.kind->axis(b), &g = rig.gravity;

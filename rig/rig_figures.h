@@ -1,6 +1,6 @@
 #pragma once
 /// Figures that follow from the parameters of a rig alone, without a plant.
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 
@@ -24,12 +24,14 @@ double LargestInductance(const BearingParameters& b);
 double LeastInductance(const BearingParameters& b);
 /// Resistance of one coil [ohm].
 double CoilResistance(const BearingParameters& b);
+/// Shares of the radial bearings in a load across the shaft at the centre of mass [-].
+std::vector<double> RadialShares(const RigParameters& rig);
 /// Bearing forces (fx, fy) that carry the rotor's weight, one per bearing. [N]
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig);
 /// The weight's share of every axis [N].
 std::vector<double> WeightOverAxes(const RigParameters& rig);
-/// Controllers of the rig that a synthesis designs for its linear plant (lqg, h-infinity): "main" for
-/// [controller], NAMEs of [controllers.NAME].
+/// Controllers of the rig that a synthesis designs for its linear plant
+/// (lqg, h-infinity): "main" for [controller], NAMEs of [controllers.NAME].
 std::vector<std::string> DesignedControllers(const RigParameters& rig);
 
 /// Rates at which the engine can record: the nearest one not below `rate`.

@@ -9,13 +9,13 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "rig/amplifier_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/coil_errors_file.h"
+#include "rig/parameters/bearing_kind.h"
+#include "rig/parameters/rig_rotor.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_checks.h"
 #include "rig/rig_figures.h"
-#include "rig/rig_rotor.h"
 
 namespace ambrig {
 
@@ -203,11 +203,7 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
   if (thrust > 1) all->Fail("", "at most one thrust bearing");
 }
 
-// Of a rig file that names none: it does no harm to healthy machines that are not their model.
-constexpr const char* kDefaultDetector = "commissioned";
-
 void ReadDetection(const TomlTable& root, DetectionParameters& d) {
-  d.kind = kDefaultDetector;
   const auto t = root.Table("detection");
   if (!t) return;
   d.kind = t->String("kind", d.kind);

@@ -2,7 +2,7 @@
 /// rig.toml. Source: docs/guide/files.md.
 #include <string>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -1,6 +1,7 @@
 #pragma once
-/// What is simulated: the rig with its calibrated values in place of the nominal ones. Only what builds
-/// a plant takes it; controllers and detectors get a NominalRig (rig/nominal_rig.h).
+/// What is simulated: the rig with its calibrated values in place of the nominal ones.
+/// Only what builds a plant takes it; controllers and detectors get a NominalRig
+/// (rig/nominal_rig.h).
 #include <memory>
 
 #include "rig/nominal_rig.h"
@@ -11,7 +12,8 @@ class TrueRig {
  public:
   /// The calibrated values of `rig` where its tolerances have some, else the nominal ones.
   explicit TrueRig(const RigParameters& rig);
-  /// A rig with nominal values only: the model that a designer computes with. Calibrated values are ignored.
+  /// A rig with nominal values only: the model that a designer computes with. Calibrated
+  /// values are ignored.
   static TrueRig AsDrawn(const NominalRig& rig) { return TrueRig(*rig); }
 
   const RigParameters& operator*() const { return *rig_; }

@@ -8,10 +8,10 @@
 
 #include "core/base/counted.h"
 #include "core/base/toml_checked.h"
-#include "core/base/units.h"
 #include "core/math/constants.h"
 #include "core/record/column_names.h"
 #include "core/record/read_record.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/toml_checked.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_checks.h"
 #include "rig/rig_figures.h"
 

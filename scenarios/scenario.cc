@@ -10,7 +10,7 @@
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 #include "scenarios/expect_file.h"
 #include "scenarios/faults/fault_file.h"

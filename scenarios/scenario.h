@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "faulttolerance/supervision/current_transition_policy.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "rotor/motion/speed_profile.h"
 #include "scenarios/excitation.h"
 #include "scenarios/faults/fault_spec.h"

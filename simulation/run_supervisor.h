@@ -7,7 +7,8 @@
 
 namespace ambrig {
 
-/// Null where the scenario or the rig has none (scenarios/expect_file.h). `traces`: slopes round the first alarm are kept.
+/// Null where the scenario or the rig has none (scenarios/expect_file.h). `traces`: slopes round
+/// the first alarm are kept.
 std::unique_ptr<FaultSupervisor> SupervisorOf(const RigParameters& rig, const Scenario& scenario,
                                               bool traces);
 

@@ -51,7 +51,8 @@ void CheckWatched(const Scenario& scenario, const std::string& why_unwatched) {
       scenario.file.empty() ? scenario.name : scenario.file, key, why_unwatched));
 }
 
-/// Of a run that was to be watched; nobody misses a watch over coils that are held still and healthy.
+/// Of a run that was to be watched; nobody misses a watch over coils that are held
+/// still and healthy.
 void NoteUnwatched(const Scenario& scenario, const std::string& why_unwatched, RunResult& result) {
   const bool held = scenario.start == StartState::kClamped && scenario.faults.empty();
   if (why_unwatched.empty() || !scenario.fault_tolerant || held) return;

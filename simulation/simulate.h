@@ -11,6 +11,8 @@
 
 namespace ambrig {
 
+class RotorModel;
+
 enum class Fidelity { kSwitching, kReference, kAveraged };
 
 struct SimulateOptions {

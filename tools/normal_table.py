@@ -4,7 +4,7 @@
   tools/normal_table.py > core/math/normal_table.h
 
 z(p), the size that |z| exceeds with probability p / 2^31, for p in [1, 2^31): in every octave of p an
-interpolant of degree 4 at Chebyshev nodes, error below 4e-5 (tests/core/noise_test.cc measures it).
+interpolant of degree 4 at Chebyshev nodes, error below 4e-5 (tests/core/math/noise_test.cc measures it).
 """
 import math
 from statistics import NormalDist

@@ -10,7 +10,8 @@ namespace ambrig {
 
 enum class Modulation { kBiState, kTriState, kChopper, kIdeal };
 
-/// Bi-state and tri-state bridges swing over 2 U_d around a duty of 0.5; the others over U_d from 0.
+/// Bi-state and tri-state bridges swing over 2 U_d around a duty of 0.5; the others
+/// over U_d from 0.
 inline bool SwingsBothWays(Modulation m) {
   return m == Modulation::kBiState || m == Modulation::kTriState;
 }
@@ -31,7 +32,8 @@ struct AmplifierParameters {
   double quadrants = 2;
   double duty_min = 0.02, duty_max = 0.98;  // duty_limits = [min, max]
   Modulation modulation = Modulation::kBiState;
-  /// The coil gets kp volts per ampere of its set-point and nothing is fed back; else its current follows.
+  /// The coil gets kp volts per ampere of its set-point and nothing is fed back; else
+  /// its current follows.
   bool voltage_mode = false;
   double bandwidth = 0;  // [Hz] of the current loop, which kp and ki follow from; 0: they are given
   double delay = 0;      // [s] of the set-points on their way, in whole switching periods
@@ -66,7 +68,8 @@ inline constexpr Field<AmplifierParameters> kAmplifierModeFields[] = {
      "set-points reach the current loops this much later"},
 };
 
-/// Errors of the hardware that its maker knows by their size only; nothing of the controller's model.
+/// Errors of the hardware that its maker knows by their size only; nothing of
+/// the controller's model.
 inline constexpr Field<AmplifierParameters> kAmplifierErrorFields[] = {
     {"adc_jitter", &AmplifierParameters::adc_jitter, "s", 0, 1e-5,
      "rms of the instants of the ADC samples, one clock for all coils"},

@@ -1,6 +1,6 @@
 #pragma once
-/// Errors of the single coils of one bearing that are known of this machine: measured ones, or those that
-/// `ambrig adopt` found. The plant has them; controllers and detectors are not told.
+/// Errors of the single coils of one bearing that are known of this machine: measured ones,
+/// or those that `ambrig adopt` found. The plant has them; controllers and detectors are not told.
 #include <vector>
 
 namespace ambrig {

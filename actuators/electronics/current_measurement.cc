@@ -90,8 +90,8 @@ template <bool kClips, class V>
       adc, out);
 }
 
-/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells, at `per_ampere` of
-/// it: from one sample to the next they change by less than it.
+/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells,
+/// at `per_ampere` of it: from one sample to the next they change by less than it.
 template <class V>
 [[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, const Sampling& sampling,
                                                   double per_ampere, bool one_way,

@@ -15,7 +15,8 @@ CoilVoltage BridgeVoltage(const AmplifierParameters& p, double duty, const Bridg
     out.drop[q] = drop + b.voltage_offset;
   };
   if (b.stuck_on) duty = 1;
-  // An ideal amplifier's duty has a sign; nothing comes out of a tri-state bridge that freewheels, at a half.
+  // An ideal amplifier's duty has a sign; nothing comes out of a tri-state bridge that freewheels,
+  // at a half.
   const double rest = p.modulation == Modulation::kTriState ? 0.5 : 0;
   if (std::abs(duty - rest) < b.dead_duty * (1 - rest)) duty = rest;
   const double dead_time = b.stuck_on ? 0 : b.dead_time;  // a bridge that is stuck does not switch

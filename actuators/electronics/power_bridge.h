@@ -7,8 +7,9 @@
 ///   chopper    on: +U_d; off: 0 (freewheel diode ideal)
 ///   ideal      duty * U_d
 ///
-/// With all switches open the diodes of a full bridge lead the current back into the bus, -(U_d + 2 U_c) against
-/// its sign, and block when it has ended; of a chopper it runs out through the freewheel diode.
+/// With all switches open the diodes of a full bridge lead the current back into the bus,
+/// -(U_d + 2 U_c) against its sign, and block when it has ended; of a chopper it runs out through
+/// the freewheel diode.
 ///
 /// Source: docs/theory/base_model.md section 3; [loadcurrentslope] Eq. 1, 5, 11.
 #include <algorithm>
@@ -28,8 +29,8 @@ struct BridgeImperfection {
   bool stuck_on = false;      // switch-stuck-on
 };
 
-/// The end of an on-phase that comes `late` [s]: `end` of a period of T, which began at `begin`. A bridge that does
-/// not switch, at duty 0 or 1, has no edge to move.
+/// The end of an on-phase that comes `late` [s]: `end` of a period of T, which began at `begin`. A
+/// bridge that does not switch, at duty 0 or 1, has no edge to move.
 inline double LateEnd(double end, double late, double begin, double T) {
   if (late == 0 || end <= 0 || end >= T) return end;
   return std::clamp(end + late, begin, T);
@@ -40,8 +41,8 @@ class PowerBridge {
   PowerBridge() = default;
   explicit PowerBridge(const AmplifierParameters& p) : p_(p) {}
 
-  /// Voltages of a period with `duty`. `current` [A]: of the coil at its start; only its sign counts, and only of a
-  /// bridge that is off.
+  /// Voltages of a period with `duty`. `current` [A]: of the coil at its start; only its sign
+  /// counts, and only of a bridge that is off.
   CoilVoltage Pattern(double duty, const BridgeImperfection& imperfection,
                       double current = 0) const;
 

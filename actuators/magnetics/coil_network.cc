@@ -7,9 +7,7 @@
 
 namespace ambrig {
 
-namespace {
-constexpr double kLeastGap = 0.02;  // of the nominal one: there the shaft has reached the pole
-}  // namespace
+namespace {}  // namespace
 
 CoilNetwork::CoilNetwork(const StatorLanes& lanes) : reluctance_(lanes.reluctance) {
   const int per_pole = lanes.coupling == Coupling::kSides ? 2 : 1;
@@ -41,7 +39,7 @@ std::size_t CoilNetwork::ReserveLoop(int coil) {
 
 double CoilNetwork::Gap(int pole, double x, double y) const {
   const std::size_t p = AsSize(pole);
-  return std::max(gap_[p] - x * dx_[p] - y * dy_[p], kLeastGap * reluctance_.gap0);
+  return std::max(gap_[p] - x * dx_[p] - y * dy_[p], kGapAtPole * reluctance_.gap0);
 }
 
 void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& s) const {

@@ -1,8 +1,8 @@
 #pragma once
 /// Seam for iron that is not ideal: the extra MMF that a pole's iron needs besides its gap,
-/// all lanes of a bearing in one call. A lane is a coil: its pole, or of a network of poles all those
-/// that the coil links, as one with their mean flux. The base rig has none (ideal iron, fast path); effects
-/// implement it (eddy currents, saturation, hysteresis).
+/// all lanes of a bearing in one call. A lane is a coil: its pole, or of a network of
+/// poles all those that the coil links, as one with their mean flux. The base rig has none
+/// (ideal iron, fast path); effects implement it (eddy currents, saturation, hysteresis).
 ///
 /// Within one step of h seconds the flux of a lane runs linearly from its committed value to φ.
 /// The two windings of a thrust side share one core: they see the same flux, so the law holds the
@@ -12,8 +12,8 @@
 
 namespace ambrig {
 
-/// A bearing's samples as RunSamples of stator_loop.h sees them, and what a law needs beside: reluctances at both ends of
-/// the period [1/H], length of a sample [s].
+/// A bearing's samples as RunSamples of stator_loop.h sees them, and what a law needs beside:
+/// reluctances at both ends of the period [1/H], length of a sample [s].
 struct LawLoop {
   StatorLoop circuit;
   const double *rel0, *rel1;
@@ -33,8 +33,9 @@ class FluxLaw {
   virtual void Steady(const Lane& phi, Lane* drop, Lane* slope) const = 0;
   /// The step is taken: remember it (turning points, diffused flux).
   virtual void Commit(const Lane& phi) = 0;
-  /// Samples k .. count - 1 in one loop, where this is the bearing's only law (law_loop.h); returns the sample in whose
-  /// solution a current falls below the floor, in the state of its start, or `count`. k: the law has no such loop.
+  /// Samples k .. count - 1 in one loop, where this is the bearing's only law (law_loop.h); returns
+  /// the sample in whose solution a current falls below the floor, in the state of its start, or
+  /// `count`. k: the law has no such loop.
   virtual int RunSamples(const LawLoop& /*loop*/, int k, int /*count*/) { return k; }
   /// Settle at a steady flux.
   virtual void Settle(const Lane& phi) = 0;

@@ -1,8 +1,12 @@
 #pragma once
-/// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it. The pull of
-/// a flux phi is (1/2) phi² Pull(g); by virtual work Pull is the reluctance's slope dR/dg.
+/// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it.
+/// The pull of a flux phi is (1/2) phi² Pull(g); by virtual work Pull is the
+/// reluctance's slope dR/dg.
 
 namespace ambrig {
+
+/// Of the nominal gap: no gap is counted smaller, there the shaft has reached the pole.
+inline constexpr double kGapAtPole = 0.02;
 
 struct GapReluctance {
   double per_metre = 0;  // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]

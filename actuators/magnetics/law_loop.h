@@ -1,18 +1,20 @@
 #pragma once
-/// The samples of a period of a bearing with one iron law, in registers: what the general path does sample by sample
-/// (stator_lanes_general.cc), for a law that gives its terms in lanes. Only for sources that hold such a law.
+/// The samples of a period of a bearing with one iron law, in registers: what the general path does
+/// sample by sample (stator_lanes_general.cc), for a law that gives its terms in lanes. Only for
+/// sources that hold such a law.
 ///
 /// A law's kernel is a template of the vector (whole_lane_vector.h) over the law's state:
 ///
 ///   explicit Kernel(const State&);                      what it needs of the state, in registers
-///   void Terms(V phi, V* drop, V* slope) const;         [A], [A/Wb] if the flux is phi [Wb] at the end of the step
+///   void Terms(V phi, V* drop, V* slope) const;         [A], [A/Wb] if the flux is phi [Wb] at
+///                                                       the end of the step
 ///   void Commit(V phi);                                 the step is taken
 ///   void Keep(State*) const;                            back to the state
-///   static constexpr bool kLinear;                      whether Terms is linear in the flux: then it has
+///   static constexpr bool kLinear;                      Terms is linear in the flux: then it has
 ///   V Base() const; double Slope() const;               drop = base + slope phi
 ///
-/// AMBRIG_LAW_LANES(Name) makes of NameKernel and NameState the functions NameDrop and NameLoop, which the members of a
-/// FluxLaw call.
+/// AMBRIG_LAW_LANES(Name) makes of NameKernel and NameState the functions NameDrop and NameLoop,
+/// which the members of a FluxLaw call.
 #include "actuators/magnetics/flux_law.h"
 #include "actuators/magnetics/running_stator.h"
 
@@ -31,8 +33,9 @@ struct MemorylessKernel {
 inline constexpr int kMostRounds = 30;  // Newton over the iron laws
 // [-] change of a round; what is left after it goes with its square
 inline constexpr double kConverged = 1e-5;
-// [-] the same of a correction with the tangent of the step's start; what is left after it is smaller by the change of
-// the tangent over the stiffness of the whole circuit, some percent at most where iron does not saturate
+// [-] the same of a correction with the tangent of the step's start; what is left after it is
+// smaller by the change of the tangent over the stiffness of the whole circuit, some percent at
+// most where iron does not saturate
 inline constexpr double kCorrected = 3e-5;
 
 /// Whether the change of the fluxes is less than `share` of them.
@@ -41,7 +44,8 @@ template <class V>
   return Sum(change * change - fluxes * fluxes * (share * share)) <= 1e-36;
 }
 
-/// g m less what the rotor's potential takes, so that the fluxes of a radial bearing add up to nothing.
+/// g m less what the rotor's potential takes, so that the fluxes of a radial bearing add
+/// up to nothing.
 template <Coupling kCoupling, class V>
 [[gnu::always_inline]] inline V FluxOf(const V& g, const V& m, double inverse_sum) {
   const V gm = g * m;
@@ -62,7 +66,8 @@ template <class V, class Kernel>
   return {drop - slope * phi, slope};
 }
 
-/// The fluxes at the end of a step. `tangent`: near the flux at its start; on return near that at its end.
+/// The fluxes at the end of a step. `tangent`: near the flux at its start; on return near that
+/// at its end.
 template <Coupling kCoupling, class V, class Kernel>
 [[gnu::always_inline]] inline V SolveUnderLaw(const Kernel& law, const V& stiffness, const V& mmf,
                                               LawTangent<V>* tangent) {

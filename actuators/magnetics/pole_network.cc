@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "actuators/magnetics/gap_reluctance.h"
 #include "core/base/errors.h"
 #include "core/base/parameters.h"
 #include "core/math/constants.h"
@@ -11,7 +12,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLeastNetworkGap = 0.02;  // of the centred one: there the shaft is at the pole
 constexpr int kMostParts = 4;
 
 using PartMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostParts, kMostParts>;
@@ -59,7 +59,7 @@ NetworkFlux PoleNetwork::FluxAt(const Eigen::Vector3d& r, bool derivatives) cons
     const NetworkPole& p = poles_[static_cast<std::size_t>(k)];
     const Eigen::Vector3d d(p.direction[0], p.direction[1], p.direction[2]);
     const double per_metre = 1 / (kMu0 * p.area), free = p.gap - d.dot(r);
-    const double gap = std::max(free, kLeastNetworkGap * p.gap);
+    const double gap = std::max(free, kGapAtPole * p.gap);
     P[k] = 1 / (per_metre * gap + p.reluctance);
     slope[k] = free == gap ? per_metre * P[k] : 0;
     m(k, columns - 1) = p.mmf;

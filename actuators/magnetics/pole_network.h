@@ -5,7 +5,8 @@
 ///   R_p = g_p/(mu0 A_p) + R_m,p                    pole: its gap and a magnet in it      [1/H]
 ///   g_p = g0_p - d_p · r,  d_p a unit vector       shaft at r = (x, y, z), stator axes   [m]
 ///   phi_p R_p = Σ_c N_pc i_c + F_p + U_part        flux out of the stator into the rotor [Wb]
-///   phi_m R_m = F_m + U_from - U_to                a magnet between two parts, or one and the rotor
+///   phi_m R_m = F_m + U_from - U_to                a magnet between two parts, or one and the
+///                                                  rotor
 ///   Σ of the fluxes that leave a part = 0          U of the rotor is 0, those of the parts float
 ///   λ = Nᵀ phi + L_l i                             linkages                              [Wb]
 ///   f = Σ phi_p²/(2 mu0 A_p) d_p                   force on the rotor                    [N]

@@ -7,8 +7,8 @@
 ///   g_j = gap_offset_j - x direction_x_j - y direction_y_j     gap of coil j               [m]
 ///   1/P_j = reluctance(g_j)                                    its pole's reluctance       [1/H]
 ///
-/// x, y: the shaft's centre at the bearing, stator axes [m]; of a bearing with one axis x lies along
-/// it and y is 0. Source: docs/theory/base_model.md section 2.
+/// x, y: the shaft's centre at the bearing, stator axes [m]; of a bearing with one axis
+/// x lies along it and y is 0. Source: docs/theory/base_model.md section 2.
 #include <array>
 #include <memory>
 #include <vector>
@@ -31,8 +31,9 @@ struct StatorGeometry {
   Lane direction_x, direction_y;  // of the pull, a unit vector: cos γ, sin γ
   Lane gap_offset;                // rotor centred [m]
   GapReluctance reluctance;       // [1/H]
-  /// Of kNetwork the whole circuit. `n` is then Σ |turns| over a coil's poles, direction the way in which
-  /// more current of a coil pulls, gap_offset the smallest gap, reluctance that of a mean pole.
+  /// Of kNetwork the whole circuit. `n` is then Σ |turns| over a coil's poles, direction the
+  /// way in which more current of a coil pulls, gap_offset the smallest gap, reluctance that of
+  /// a mean pole.
   std::shared_ptr<const PoleNetwork> network;
 
   /// (x, y) of every coil's direction.

@@ -35,15 +35,16 @@ struct ShortedTurns {
   double target = 0;                          // λ* of the present step [Wb]
 };
 
-/// Its geometry is the true one: effects move gaps and change reluctances of this copy. Lanes beyond
-/// `coils` stay inert (no turns, blocked).
+/// Its geometry is the true one: effects move gaps and change reluctances of this
+/// copy. Lanes beyond `coils` stay inert (no turns, blocked).
 class StatorLanes : public StatorGeometry {
  public:
   std::vector<FluxLaw*> laws;        // iron laws, empty for ideal iron
   std::vector<ShortedTurns> shorts;  // any number, several on one coil too
   std::array<bool, kLanes> open{};   // broken for good
   bool unipolar = true;              // two-quadrant bridges: i >= 0
-  /// All switches open: the current ends, of either sign, and its diodes block until the bridge drives again.
+  /// All switches open: the current ends, of either sign, and its diodes block until the
+  /// bridge drives again.
   std::array<bool, kLanes> released{};
 
   // State.
@@ -100,15 +101,14 @@ class StatorLanes : public StatorGeometry {
   /// Instantaneous force at the present flux.
   void Force(double x, double y, double* out_x, double* out_y) const;
   double FieldEnergy(double x, double y) const;  // [J], ideal iron
-  /// Of any stator (coupling kNetwork): what `current` [A] of its coils counts in the network as drawn,
-  /// when coils have other turns.
+  /// Of any stator (coupling kNetwork): what `current` [A] of its coils counts in the
+  /// network as drawn, when coils have other turns.
   Eigen::VectorXd CountedCurrents(const double* current) const;
 
  private:
-  /// Never below 2 % of the nominal gap: a shaft pressed beyond that has reached the pole.
   double GapAt(int j, double x, double y) const {
     const double gap = gap_offset[j] - x * direction_x[j] - y * direction_y[j];
-    const double least = 0.02 * reluctance.gap0;
+    const double least = kGapAtPole * reluctance.gap0;
     return gap < least ? least : gap;
   }
   void UpdateConductance(int j);
@@ -116,18 +116,19 @@ class StatorLanes : public StatorGeometry {
   void Unblock(int j);
   /// Whether the diodes of a coil block that is not broken.
   bool SomeBlock() const;
-  /// Whether a current of either sign runs out through the diodes of a released coil. Currents that flow one way need
-  /// no such look: their floor is zero anyway.
+  /// Whether a current of either sign runs out through the diodes of a released coil. Currents that
+  /// flow one way need no such look: their floor is zero anyway.
   bool SomeRunOut() const;
   StatorSample SampleAt(const VoltagePattern* pattern, double bus, int k);
   void AddLawTerms(LawTerms* terms) const;
   void Converge(const StatorSample& sample, const SampleWork& work, LawTerms* terms);
   bool StepDriven(const StatorSample& sample);
   void StepWithDiodes(const StatorSample& sample);
-  /// Flux and currents that carry the targets λ* of `work`, the shorted turns' too, after the sample's h (0: at once);
-  /// Newton over the laws.
+  /// Flux and currents that carry the targets λ* of `work`, the shorted turns' too, after the
+  /// sample's h (0: at once); Newton over the laws.
   void SolveGeneral(const StatorSample& sample, SampleWork* work);
-  // Of any stator (coupling kNetwork): the same steps over its whole circuit, stator_lanes_network.cc.
+  // Of any stator (coupling kNetwork): the same steps over its whole circuit,
+  // stator_lanes_network.cc.
   void BeginNetwork(double x0, double y0, double x1, double y1);
   void PlaceNetwork(double fraction);
   void TakeNetwork();
@@ -148,8 +149,8 @@ class StatorLanes : public StatorGeometry {
   bool blocks_ = false;  // some diode blocked in the last period
   Lane rel_;
   bool affine_laws_ = true;  // one round of Newton is exact
-  // Of any stator: its circuit at both ends of the period and now; forces at its start, of its samples, and at its
-  // end [N].
+  // Of any stator: its circuit at both ends of the period and now; forces at its start, of its
+  // samples, and at its end [N].
   NetworkPlace start_, end_, now_;
   Eigen::Vector2d force_start_ = Eigen::Vector2d::Zero(), force_sum_ = Eigen::Vector2d::Zero(),
                   force_end_ = Eigen::Vector2d::Zero();

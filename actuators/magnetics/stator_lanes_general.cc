@@ -111,7 +111,8 @@ void StatorLanes::UnblockDriven(const VoltagePattern& p, double bus, double t, L
   }
 }
 
-/// A sample in which no current comes to its floor. false: one does, and nothing but the fluxes has changed.
+/// A sample in which no current comes to its floor. false: one does, and nothing but the
+/// fluxes has changed.
 bool StatorLanes::StepDriven(const StatorSample& sample) {
   SampleWork work;
   LawTerms terms;
@@ -121,7 +122,8 @@ bool StatorLanes::StepDriven(const StatorSample& sample) {
   return FinishSample(sample, work.target, unipolar ? 0 : -kInfinity);
 }
 
-/// A sample in which diodes may block and switches connect coils again; with shorted turns, or of any stator.
+/// A sample in which diodes may block and switches connect coils again; with shorted turns, or
+/// of any stator.
 void StatorLanes::StepWithDiodes(const StatorSample& sample) {
   if (coupling == Coupling::kNetwork) PlaceNetwork(sample.fraction);
   SampleWork work;
@@ -132,7 +134,8 @@ void StatorLanes::StepWithDiodes(const StatorSample& sample) {
     SolveGeneral(sample, &work);
     bool any = false;
     for (int j = 0; j < coils; ++j) {
-      // A released coil sees a voltage against its current: where both have one sign, the current has ended.
+      // A released coil sees a voltage against its current: where both have one sign, the
+      // current has ended.
       const bool ended = unipolar ? i[j] < 0 : released[j] && i[j] * sample.pattern->gain[2][j] > 0;
       if (!ended) continue;
       Block(j);

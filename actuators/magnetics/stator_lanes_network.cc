@@ -1,6 +1,7 @@
-/// The general path of the lanes for any stator: the same targets λ*, solved over the whole circuit (network_lanes.h),
-/// which runs linearly from the start of a period to its end, as the shaft does. A loop of shorted turns adds to the
-/// ampere-turns of its coil: it has the same share on each of the coil's poles.
+/// The general path of the lanes for any stator: the same targets λ*, solved over the
+/// whole circuit (network_lanes.h), which runs linearly from the start of a period to its end, as
+/// the shaft does. A loop of shorted turns adds to the ampere-turns of its coil: it has the same
+/// share on each of the coil's poles.
 #include "actuators/magnetics/stator_lanes.h"
 
 namespace ambrig {

@@ -167,7 +167,7 @@ template <class V>
                                                  double* slope, double* g0, double* dg) {
   const V offset = LoadAs<V>(law.gap_offset), dx = LoadAs<V>(law.direction_x),
           dy = LoadAs<V>(law.direction_y);
-  const V closest = 0.02 * law.reluctance.gap0;
+  const V closest = kGapAtPole * law.reluctance.gap0;
   const V start = Max(offset - dx * from[0] - dy * from[1], closest),
           end = Max(offset - dx * to[0] - dy * to[1], closest);
   const V first = law.reluctance.Value(start), last = law.reluctance.Value(end);

@@ -30,7 +30,8 @@ using V = LaneVector;
   Store(terms->slope.v, zero);
 }
 
-/// φ from MMF, stiffness and the iron's tangent. Whether it changed by less than kConverged of its size.
+/// φ from MMF, stiffness and the iron's tangent. Whether it changed by less than kConverged
+/// of its size.
 [[gnu::always_inline]] inline bool Round(const StatorSample& s, const V& mmf, const V& stiffness,
                                          LawTerms* terms) {
   const V old = Load(s.phi), slope = Load(terms->slope.v);

@@ -1,15 +1,17 @@
 #pragma once
-/// One sample of a bearing's circuit in the general path, its steps in lanes: targets λ*, rounds of Newton over the
-/// iron laws, currents and linkages. Equations: stator_lanes.h. Pointers are to eight lanes each.
+/// One sample of a bearing's circuit in the general path, its steps in lanes: targets λ*, rounds of
+/// Newton over the iron laws, currents and linkages. Equations: stator_lanes.h. Pointers are to
+/// eight lanes each.
 ///
-/// Everything that a wide load reads soon after is written by a wide store: narrow stores before a wide load would cost
-/// more than the arithmetic.
+/// Everything that a wide load reads soon after is written by a wide store: narrow stores before a
+/// wide load would cost more than the arithmetic.
 #include "actuators/magnetics/coupling.h"
 #include "actuators/magnetics/stator_loop.h"
 
 namespace ambrig {
 
-/// A sample of h [s] that starts t [s] after the period's start and ends at this fraction of the period.
+/// A sample of h [s] that starts t [s] after the period's start and ends at this fraction
+/// of the period.
 struct StatorSample {
   Coupling coupling = Coupling::kFloatingRotor;
   const VoltagePattern* pattern;
@@ -25,7 +27,8 @@ struct LawTerms {
 };
 void Clear(LawTerms* terms);
 
-/// What the rounds of a sample share: λ*, MMF Σ c λ* and stiffness 1/P + Σ n c of the driven windings.
+/// What the rounds of a sample share: λ*, MMF Σ c λ* and stiffness 1/P + Σ n c of
+/// the driven windings.
 struct SampleWork {
   Lane target, mmf, stiffness;
 };
@@ -35,8 +38,8 @@ struct ShortedWindings {
 };
 
 void ComputeTargets(const StatorSample& s, Lane* target);
-/// Prepares `work` and takes the first round of Newton from the terms at the present flux; clears them. Returns whether
-/// the fluxes have converged.
+/// Prepares `work` and takes the first round of Newton from the terms at the present flux; clears
+/// them. Returns whether the fluxes have converged.
 bool FirstRound(const StatorSample& s, LawTerms* terms, SampleWork* work);
 /// The same to targets that stand in `work`, with the loops of shorted turns; null: there are none.
 bool FirstRoundTo(const StatorSample& s, const ShortedWindings* shorted, LawTerms* terms,
@@ -50,7 +53,8 @@ void TakeSample(const StatorSample& s);
 /// Both at once. false where a current falls below `floor` [A]: nothing is changed then.
 bool FinishSample(const StatorSample& s, const Lane& target, double floor);
 
-/// Mean current drawn from the bus over a sample, whose currents run linearly from `before` to `after` [A].
+/// Mean current drawn from the bus over a sample, whose currents run linearly from
+/// `before` to `after` [A].
 double DrawnFromBus(const VoltagePattern& pattern, double t, double h, const Lane& before,
                     const Lane& after);
 

@@ -84,8 +84,8 @@ AMBRIG_INLINE WholeLaneVector Abs(const WholeLaneVector& x) {
   return (EightLanes)((EightMasks)x.v & 0x7fffffffffffffffLL);
 }
 
-/// A comparison that is used more than once: g++ 12 takes it apart element by element. The sign of the
-/// difference serves as well.
+/// A comparison that is used more than once: g++ 12 takes it apart element by element. The
+/// sign of the difference serves as well.
 AMBRIG_INLINE EightMasks Below(const WholeLaneVector& x, const WholeLaneVector& y) {
   return (EightMasks)(x.v - y.v) >> 63;
 }

@@ -7,7 +7,7 @@
 /// (CurrentModel::kAxisPatterns); a figure of the loop takes what the analyses take, the true rig
 /// and every coil (CurrentModel::kCoils).
 #include "analysis/linear/shaft_weights.h"
-#include "control/synthesis/sampled_plant.h"
+#include "control/linear/sampled_plant.h"
 
 namespace ambrig {
 

@@ -14,7 +14,7 @@
 
 #include "control/current/bearing_control.h"
 #include "effects/plant.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

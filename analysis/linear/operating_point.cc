@@ -11,13 +11,6 @@
 
 namespace ambrig {
 
-namespace {
-
-// Below this a run's start holds a coil at the bridge's lower limit (base_model.md section 3).
-constexpr double kInterrupted = 0.2;  // [A]
-
-}  // namespace
-
 OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known,
                              const std::vector<CurrentMap>& maps)
     : rig(true_rig), nominal(known), plant(BuildPlant(rig)) {
@@ -43,7 +36,7 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
     c.current = set[j];
     c.commanded = set[j] == free[j];
     CurrentRegulator regulator(amplifier);
-    regulator.HoldCurrent(std::max(c.current, 1.01 * kInterrupted),
+    regulator.HoldCurrent(std::max(c.current, 1.01 * kInterruptedCurrent),
                           plant().bearings[k].base_resistance[j]);
     c.duty = regulator.DutyFromVoltage(regulator.integral());
     const std::string name = CoilName(own.name, j);
@@ -52,7 +45,7 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
           fmt::format("{} carries {:.3g} A, a limit of its set-point: its current cannot follow "
                       "the force command",
                       name, c.current));
-    else if (c.current <= kInterrupted && amplifier.quadrants < 3)
+    else if (c.current <= kInterruptedCurrent && amplifier.quadrants < 3)
       notes.push_back(fmt::format(
           "{} carries {:.3g} A: a current that its diodes interrupt counts as continuous", name,
           c.current));

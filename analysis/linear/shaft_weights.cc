@@ -1,4 +1,5 @@
 #include "analysis/linear/shaft_weights.h"
+#include "rotor/motion/linearise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 
 #include "analysis/iso14839.h"
 #include "app/commands/commands.h"
-#include "app/commands/screen.h"
 #include "app/json/analysis_json.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
+#include "app/text/screen.h"
 #include "core/base/counted.h"
 #include "core/math/constants.h"
 

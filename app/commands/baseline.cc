@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "core/base/errors.h"
 #include "core/base/json_file.h"
 #include "core/record/channels.h"

@@ -14,13 +14,14 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
-#include "app/commands/screen.h"
 #include "app/json/run_json.h"
 #include "app/pages/difference_report.h"
 #include "app/pages/html.h"
+#include "app/text/screen.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
+#include "core/base/version.h"
 #include "core/record/hdf5.h"
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
@@ -58,7 +59,7 @@ void CheckBaseline(const BaselineOptions& o, const RigParameters& rig, RunResult
     WriteHdf5(BaselineRecord(o, now,
                              {{"scenario", ReadFile(row.file)},
                               {"rig", ReadFile(rig.file)},
-                              {"program", "ambrig 0.1.0"}}),
+                              {"program", std::string(ProgramVersion())}}),
               file);
     return;
   }

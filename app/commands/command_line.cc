@@ -8,9 +8,10 @@
 #include <system_error>
 
 #include "app/commands/commands.h"
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "core/base/errors.h"
 #include "core/base/memory_reuse.h"
+#include "core/base/version.h"
 
 namespace ambrig {
 
@@ -126,7 +127,7 @@ int RunCommandLine(int argc, char** argv) {
   CLI::App app{
       "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain",
       "ambrig"};
-  app.set_version_flag("--version", "ambrig 0.1.0");
+  app.set_version_flag("--version", std::string(ProgramVersion()));
   app.formatter(std::make_shared<NarrowHelp>());
   Work work;
   AddCommands(app, work);

@@ -10,7 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
 #include "fdd/learning/commissioning_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -6,8 +6,8 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/rig_difference.h"
-#include "app/commands/screen.h"
 #include "app/pages/difference_report.h"
+#include "app/text/screen.h"
 
 namespace ambrig {
 

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/screen.h"
 #include "app/pages/html.h"
+#include "app/text/screen.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "app/commands/new_case.h"
-#include "app/commands/screen.h"
-#include "core/base/units.h"
+#include "app/text/screen.h"
 #include "core/record/column_names.h"
+#include "core/record/units.h"
 #include "rig/clearance.h"
 #include "rig/magnet_inverse.h"
 #include "rig/rig_channels.h"

@@ -6,11 +6,11 @@
 #include <cctype>
 #include <cmath>
 
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "core/base/errors.h"
 #include "core/base/toml_edit.h"
-#include "core/base/units.h"
 #include "core/record/column_names.h"
+#include "core/record/units.h"
 #include "rig/clearance.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_figures.h"

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "core/base/errors.h"
-#include "core/base/units.h"
 #include "core/record/column_names.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "core/record/units.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {

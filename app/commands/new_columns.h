@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/record/record.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

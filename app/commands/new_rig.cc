@@ -9,8 +9,8 @@
 #include "core/base/errors.h"
 #include "core/base/toml_edit.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 #include "rig/rig_file.h"
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/screen.h"
 #include "app/commands/word_keys.h"
 #include "app/pages/html.h"
+#include "app/text/screen.h"
 #include "core/base/atomic_file.h"
 #include "effects/catalogue.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "scenarios/faults/fault.h"
 
 namespace ambrig {

@@ -7,7 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "core/base/json_file.h"
 #include "core/record/hdf5.h"
 #include "discovery/plan/promise_trial.h"

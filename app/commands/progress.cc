@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "app/commands/event_stream.h"
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 
 namespace ambrig {
 namespace {

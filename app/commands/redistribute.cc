@@ -9,8 +9,8 @@
 #include "app/pages/redistribute_report.h"
 #include "faulttolerance/redistribution/redistribution_json.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 #include "rig/rig_file.h"
 

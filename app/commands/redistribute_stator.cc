@@ -7,8 +7,8 @@
 #include "app/commands/progress.h"
 #include "core/math/constants.h"
 #include "faulttolerance/supervision/stator_failure_map.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

@@ -4,7 +4,7 @@
 #include "app/commands/commands.h"
 #include "app/json/rig_json.h"
 #include "app/pages/html.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -3,8 +3,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
-#include "app/commands/screen.h"
 #include "app/pages/html.h"
+#include "app/text/screen.h"
 #include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/read_file.h"

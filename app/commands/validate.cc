@@ -7,7 +7,7 @@
 #include "analysis/validation.h"
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "core/base/counted.h"
 #include "core/base/errors.h"
 

@@ -9,9 +9,9 @@
 #include "app/commands/event_stream.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
-#include "app/commands/screen.h"
 #include "app/commands/watch_folder.h"
 #include "app/pages/watch_report.h"
+#include "app/text/screen.h"
 
 namespace ambrig {
 

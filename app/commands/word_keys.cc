@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "control/position/controller_kind.h"
+#include "control/interface/controller_kind.h"
 #include "fdd/detectors/coil_detector.h"
 #include "rig/amplifier_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/bearing_kinds/stator_file.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/figures/ratio_figure.h"
 #include "app/figures/response_figures.h"
 #include "app/figures/series.h"
-#include "app/pages/discovery_parts.h"
 #include "core/math/constants.h"
 #include "core/math/fft.h"
 #include "core/record/channels.h"

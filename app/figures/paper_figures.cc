@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 

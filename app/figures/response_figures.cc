@@ -8,7 +8,7 @@
 #include <complex>
 
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/math/constants.h"
 #include "core/math/fft.h"
 #include "core/math/linear_equations.h"

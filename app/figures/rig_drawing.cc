@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/base/errors.h"
 
 namespace ambrig {

@@ -7,11 +7,11 @@
 
 #include "app/figures/series.h"
 #include "app/json/analysis_json.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/base/counted.h"
 #include "core/base/parameters.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "app/figures/rig_drawing.h"
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 namespace {

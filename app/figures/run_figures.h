@@ -1,11 +1,12 @@
 #pragma once
-/// The figures of a run's report, one function each (run_report.h has the data).
+/// The figures of a run's report, one function each (run_data.h has the data).
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "app/pages/run_report.h"
+#include "app/figures/figure.h"
+#include "app/figures/run_data.h"
 
 namespace ambrig {
 

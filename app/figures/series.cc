@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/base/errors.h"
 
 namespace ambrig {

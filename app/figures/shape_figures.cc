@@ -7,7 +7,7 @@
 #include "app/figures/series.h"
 #include "app/figures/shaft_figures.h"
 #include "app/json/analysis_json.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/math/constants.h"
 
 namespace ambrig {

@@ -7,7 +7,7 @@
 
 #include "app/figures/run_figures.h"
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 namespace {

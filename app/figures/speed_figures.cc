@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/math/constants.h"
 #include "core/math/order_tracking.h"
 

@@ -2,7 +2,8 @@
 /// Figures of a run whose speed changes: waterfall and order tracks (core/math/order_tracking.h).
 #include <optional>
 
-#include "app/pages/run_report.h"
+#include "app/figures/figure.h"
+#include "app/figures/run_data.h"
 
 namespace ambrig {
 

@@ -1,6 +1,6 @@
-#include <cmath>
+#include "app/json/crosscheck_json.h"
 
-#include "app/pages/crosscheck_report.h"
+#include <cmath>
 
 namespace ambrig {
 

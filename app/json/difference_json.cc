@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/commands/screen.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
+#include "app/text/screen.h"
 #include "core/base/counted.h"
 #include "core/base/json_file.h"
-#include "core/base/units.h"
 #include "core/record/read_record.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 

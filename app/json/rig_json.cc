@@ -8,8 +8,8 @@
 
 #include "app/json/json_number.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/coil_layout.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 namespace {

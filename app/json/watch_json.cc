@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "app/commands/screen.h"
 #include "app/json/discovery_json.h"
 #include "app/json/json_number.h"
+#include "app/text/screen.h"
 #include "effects/effect.h"
 
 namespace ambrig {

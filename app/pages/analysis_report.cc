@@ -9,8 +9,8 @@
 #include "app/figures/loop_figures.h"
 #include "app/figures/rotor_figures.h"
 #include "app/json/analysis_json.h"
-#include "app/pages/format.h"
 #include "app/pages/html.h"
+#include "app/text/format.h"
 #include "core/math/constants.h"
 
 namespace ambrig {

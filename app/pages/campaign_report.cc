@@ -8,8 +8,8 @@
 #include <set>
 
 #include "app/figures/series.h"
-#include "app/pages/format.h"
 #include "app/pages/html.h"
+#include "app/text/format.h"
 #include "campaign/merge.h"
 #include "core/base/counted.h"
 

@@ -8,7 +8,7 @@
 #include "app/figures/series.h"
 #include "app/pages/html.h"
 #include "core/base/coil_name.h"
-#include "fdd/measurement/detection_feed.h"
+#include "fdd/detectors/detection_feed.h"
 #include "fdd/model/loss_excess.h"
 
 namespace ambrig {

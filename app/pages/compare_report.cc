@@ -10,7 +10,7 @@
 #include "app/figures/response_figures.h"
 #include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/record/channels.h"
 
 namespace ambrig {

@@ -1,22 +1,12 @@
 #pragma once
-/// Two independent models of contact as JSON and as one HTML page (simulation/verdict/contact_crosscheck.h).
-#include <nlohmann/json.hpp>
+/// Two independent models of contact as one HTML page (simulation/crosscheck/contact_crosscheck.h).
 #include <string>
 #include <vector>
 
-#include "simulation/verdict/contact_crosscheck.h"
+#include "app/json/crosscheck_json.h"
 
 namespace ambrig {
 
-struct CrosscheckedScenario {
-  std::string file, name;
-  std::uint64_t seed = 1;
-  ContactCrosscheck crosscheck;
-};
-
-/// "stayed up", "touched down" or "dropped".
-std::string VerdictName(const DropFigures& figures);
-nlohmann::ordered_json CrosscheckJson(const CrosscheckedScenario& scenario);
 /// @throws InputError when it cannot be written.
 void WriteCrosscheckReport(const std::vector<CrosscheckedScenario>& scenarios,
                            const std::string& path);

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "app/pages/format.h"
 #include "app/pages/html.h"
+#include "app/text/format.h"
 #include "core/base/counted.h"
 
 namespace ambrig {

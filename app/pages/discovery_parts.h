@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/figures/ratio_figure.h"
 #include "app/figures/residual_data.h"
 #include "app/pages/html.h"
 #include "discovery/decision/compare.h"
@@ -27,12 +28,6 @@ double LargestRatio(const Comparison& comparison);
 
 /// Figure and table: error against what was believed, on fitted and on unseen records.
 void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder);
-
-/// Cells of error over noise: the colour runs from the noise to at most ten times it, so that one
-/// extreme does not whiten the rest; numbers are printed where there is room for them.
-Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
-                   const std::vector<std::vector<double>>& values, const std::string& caption,
-                   double scale = 0);
 
 /// Which block the error sits in, or that the block tests do not tell; empty without them.
 std::string BlockText(const Comparison& c);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/figures/explain_figures.h"
 #include "app/pages/discovery_report.h"
+#include "app/pages/explain_figures.h"
 #include "app/pages/explain_tables.h"
-#include "app/pages/format.h"
 #include "app/pages/nuisance_tables.h"
+#include "app/text/format.h"
 #include "effects/effect.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/pages/explain_tables.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 

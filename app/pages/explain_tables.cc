@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 

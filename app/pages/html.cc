@@ -7,7 +7,7 @@
 
 #include "app/figures/series.h"
 #include "app/pages/assets.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
 #include "core/base/parameters.h"

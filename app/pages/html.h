@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "app/figures/figure.h"
+#include "app/text/verdict.h"
 
 namespace ambrig {
-
-enum class Verdict { kOk, kWarn, kFail, kInfo };
 
 /// A table cell; `style` is "" (numbers are aligned right by themselves), "ok", "warn", "fail" or
 /// "muted".

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "discovery/model/coil_errors.h"
 
 namespace ambrig {

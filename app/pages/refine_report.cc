@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/pages/discovery_parts.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 namespace {

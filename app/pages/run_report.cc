@@ -6,7 +6,7 @@
 
 #include "app/figures/run_figures.h"
 #include "app/figures/speed_figures.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 
 namespace ambrig {
 namespace {

@@ -9,11 +9,12 @@
 
 #include "analysis/dropped_modes.h"
 #include "app/figures/series.h"
-#include "app/pages/format.h"
+#include "app/text/format.h"
 #include "core/base/read_file.h"
+#include "core/base/version.h"
 #include "fdd/learning/commissioning_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -46,7 +47,7 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
     if (!b.kind->two_axes) continue;
     ReportBearing r;
     r.name = b.name;
-    r.clearance = b.auxiliary ? b.auxiliary->clearance : GapOf(b);
+    r.clearance = ClearanceOf(b);
     r.pole_angles = b.kind->stator(b).Angles();
     r.x = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 0});
     r.y = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 1});
@@ -196,6 +197,8 @@ std::string EventText(const RunEvent& e) {
     text += " (no currents of the coils that are left give the forces)";
   if (e.kind == "not_redistributed" && text == "own set-points")
     text += " (the controller commands currents itself)";
+  if (e.kind == "not_redistributed" && text == "nothing else carries")
+    text = "coil kept in spite of its reading, nothing else carries";
   if (e.kind == "doubtful") text += ": gross faults only";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
@@ -207,8 +210,8 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
                                 const std::string& fidelity) {
   RunReportData data;
   data.name = scenario.name;
-  data.subtitle =
-      fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
+  data.subtitle = fmt::format("rig {}, {} fidelity, seed {}, {}", rig.name, fidelity, scenario.seed,
+                              ProgramVersion());
   FillVerdict(result, expect, data);
   std::vector<std::string> notes = result.notes;
   if (const std::string note = DoubtfulModelNote(rig, result); !note.empty()) notes.push_back(note);

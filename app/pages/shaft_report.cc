@@ -5,8 +5,8 @@
 #include "app/figures/rotor_figures.h"
 #include "app/figures/shaft_figures.h"
 #include "app/json/analysis_json.h"
-#include "app/pages/format.h"
 #include "app/pages/html.h"
+#include "app/text/format.h"
 #include "core/base/counted.h"
 #include "core/math/constants.h"
 

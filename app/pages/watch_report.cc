@@ -8,8 +8,8 @@
 #include <map>
 
 #include "app/figures/series.h"
-#include "app/pages/format.h"
 #include "app/pages/html.h"
+#include "app/text/format.h"
 #include "core/base/counted.h"
 
 namespace ambrig {

@@ -3,10 +3,10 @@
 ///
 ///   F(c0 b + δi) = F0 + J δi + ...,   δi = c0 W_v v/c0 with J W_v = k c0 I
 ///
-/// W_v is the smallest that does it (pseudo-inverse of J = dF/di); k is such that the coil that moves
-/// most moves by |v|. For eight alternating poles that is [1, cos γ, sin γ] and k = 4 mu0 N² A/g0².
-/// Where magnets give the bias, c0 is only a scale: the current that would make their flux density,
-/// at most `most`. Source: docs/theory/stators.md.
+/// W_v is the smallest that does it (pseudo-inverse of J = dF/di); k is such that the
+/// coil that moves most moves by |v|. For eight alternating poles that is [1, cos γ, sin γ]
+/// and k = 4 mu0 N² A/g0². Where magnets give the bias, c0 is only a scale: the current that would
+/// make their flux density, at most `most`. Source: docs/theory/stators.md.
 #include <Eigen/Dense>
 
 #include "actuators/magnetics/pole_network.h"

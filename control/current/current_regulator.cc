@@ -11,7 +11,7 @@ void CurrentRegulator::ResetToLowerLimit() {
 }
 
 void CurrentRegulator::HoldCurrent(double current, double resistance) {
-  if (current <= 0.2 && p_->quadrants < 3 && p_->modulation != Modulation::kIdeal)
+  if (current <= kInterruptedCurrent && p_->quadrants < 3 && p_->modulation != Modulation::kIdeal)
     return ResetToLowerLimit();
   const double u_d = p_->bus_voltage, ir = current * resistance;
   double d = ir / u_d;

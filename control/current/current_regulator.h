@@ -1,15 +1,19 @@
 #pragma once
-/// The current regulator of one coil, a part of the controller: a discrete PI that turns the mean of
-/// the last period's ADC samples into a duty. It knows the nominal amplifier only.
+/// The current regulator of one coil, a part of the controller: a discrete PI that turns
+/// the mean of the last period's ADC samples into a duty. It knows the nominal amplifier only.
 ///
 ///   d = d0 + (kp e + integral) / u,   u = 2 U_d with d0 = 0.5, or u = U_d with d0 = 0
 ///
-/// In voltage mode e is the set-point and there is no integral. The duty is clamped to the limits; the integral's increment is dropped when the tentative duty is
-/// beyond the limit on the side that e pushes to. The bridge that the duty drives is the plant's:
+/// In voltage mode e is the set-point and there is no integral. The duty is clamped to the limits;
+/// the integral's increment is dropped when the tentative duty is beyond the limit on the side that
+/// e pushes to. The bridge that the duty drives is the plant's:
 /// actuators/electronics/power_bridge.h. Source: docs/theory/base_model.md section 3.
 #include "actuators/electronics/amplifier_parameters.h"
 
 namespace ambrig {
+
+/// [A] up to which the diodes of a bridge may interrupt a coil's current: no duty holds it.
+inline constexpr double kInterruptedCurrent = 0.2;
 
 class CurrentRegulator {
  public:
@@ -39,7 +43,7 @@ class CurrentRegulator {
     return d < p_->duty_min ? p_->duty_min : (d > p_->duty_max ? p_->duty_max : d);
   }
   /// Integral [V] that holds `current` in a coil of `resistance`; the lower limit for a coil told
-  /// 0.2 A or less.
+  /// kInterruptedCurrent or less.
   void HoldCurrent(double current, double resistance);
   void ResetToLowerLimit();
   double DutyFromVoltage(double u) const { return centre_ + u * duty_per_volt_; }

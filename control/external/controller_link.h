@@ -1,7 +1,8 @@
 #pragma once
 /// A stream socket to the process of a controller: whole messages with a time limit (host/wire.h).
-/// The process is a child that the link starts with a shared library, or firmware that listens at an
-/// address. Whatever it does, crash, hang or nonsense, ends in a ControllerFailure with one sentence.
+/// The process is a child that the link starts with a shared library, or firmware that
+/// listens at an address. Whatever it does, crash, hang or nonsense, ends in a ControllerFailure
+/// with one sentence.
 #include <sys/types.h>
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 #pragma once
-/// A controller that is not ambrig's: a shared library in a process of its own, or firmware behind a
-/// socket, in lock step with the run (control/external/ambrig_controller.h, docs/guide/controller_in_c.md).
+/// A controller that is not ambrig's: a shared library in a process of its own, or
+/// firmware behind a socket, in lock step with the run (control/external/ambrig_controller.h,
+/// docs/guide/controller_in_c.md).
 #include "control/external/controller_link.h"
-#include "control/position/controller_kind.h"
+#include "control/interface/controller_kind.h"
 
 namespace ambrig {
 

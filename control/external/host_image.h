@@ -1,6 +1,7 @@
 #pragma once
-/// The program of control/external/host, linked into this one as bytes, so that a controller's process
-/// can be started wherever ambrig is used: as the command, from Python, inside a test.
+/// The program of control/external/host, linked into this one as bytes, so that
+/// a controller's process can be started wherever ambrig is used: as the command, from Python,
+/// inside a test.
 #include <string>
 
 namespace ambrig {

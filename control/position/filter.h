@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "control/synthesis/state_space.h"
+#include "control/linear/state_space.h"
 #include "core/base/toml.h"
 
 namespace ambrig {

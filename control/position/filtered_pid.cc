@@ -1,7 +1,5 @@
 #include "control/position/filtered_pid.h"
 
-#include <algorithm>
-
 namespace ambrig {
 
 FilteredPid::FilteredPid(std::vector<FilteredPidAxis> axes, double Ts)
@@ -13,18 +11,11 @@ void FilteredPid::Step(const std::vector<double>& y, const std::vector<double>& 
   last_speed_ = Omega;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const PidParameters p = axes_[k].pid.At(Omega);
-    PidState& s = states_[k];
-    const double a = PidFilter(p, Ts_), e = r[k] - y[k];
-    if (!s.started) s.last = y[k];
-    s.started = true;
-    s.derivative = a * s.derivative + (1 - a) * (y[k] - s.last) / Ts_;
-    s.last = y[k];
-    double raw = p.kp * e - p.kd * s.derivative + s.integral;
-    for (Biquad& filter : axes_[k].filters) raw = filter.Step(raw);
-    raw += excitation[k];
-    const bool pushes_out = (raw > p.f_max && e > 0) || (raw < -p.f_max && e < 0);
-    if (!pushes_out) s.integral += p.ki * Ts_ * e;
-    f[k] = std::clamp(raw, -p.f_max, p.f_max);
+    const auto filtered = [&filters = axes_[k].filters](double force) {
+      for (Biquad& filter : filters) force = filter.Step(force);
+      return force;
+    };
+    f[k] = PidStep(p, Ts_, PidFilter(p, Ts_), y[k], r[k], excitation[k], states_[k], filtered);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "control/position/pid.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace ambrig {
@@ -24,15 +23,7 @@ StateSpace PidLinear(const PidParameters& p, double Ts) {
 
 double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation,
                PidState& s) {
-  const double e = r - y;
-  if (!s.started) s.last = y;
-  s.started = true;
-  s.derivative = a * s.derivative + (1 - a) * (y - s.last) / Ts;
-  s.last = y;
-  const double raw = p.kp * e - p.kd * s.derivative + s.integral + excitation;
-  const bool pushes_out = (raw > p.f_max && e > 0) || (raw < -p.f_max && e < 0);
-  if (!pushes_out) s.integral += p.ki * Ts * e;
-  return std::clamp(raw, -p.f_max, p.f_max);
+  return PidStep(p, Ts, a, y, r, excitation, s, [](double force) { return force; });
 }
 
 DecentralisedPid::DecentralisedPid(std::vector<PidParameters> axes, double Ts)

@@ -6,6 +6,8 @@
 ///
 /// f uses the integral before this step's increment; the increment is dropped when the raw f is
 /// beyond the limit on the side that e pushes to. Source: docs/theory/base_model.md section 4.
+#include <algorithm>
+
 #include "control/position/position_controller.h"
 #include "core/base/parameters.h"
 
@@ -38,6 +40,21 @@ struct PidState {
 double PidFilter(const PidParameters& p, double Ts);
 /// Reading -> force of one PID, r = 0; states d_(k-1), y_(k-1), integral.
 StateSpace PidLinear(const PidParameters& p, double Ts);
+/// One step; `a` of PidFilter. `shape` is applied to the force between the PID and the excitation
+/// and may keep states of its own; what it makes of the force is what the limit sees.
+template <class Shape>
+double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation,
+               PidState& s, const Shape& shape) {
+  const double e = r - y;
+  if (!s.started) s.last = y;
+  s.started = true;
+  s.derivative = a * s.derivative + (1 - a) * (y - s.last) / Ts;
+  s.last = y;
+  const double raw = shape(p.kp * e - p.kd * s.derivative + s.integral) + excitation;
+  const bool pushes_out = (raw > p.f_max && e > 0) || (raw < -p.f_max && e < 0);
+  if (!pushes_out) s.integral += p.ki * Ts * e;
+  return std::clamp(raw, -p.f_max, p.f_max);
+}
 double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation,
                PidState& s);
 

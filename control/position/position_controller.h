@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "control/current/bearing_control.h"
-#include "control/synthesis/state_space.h"
+#include "control/linear/state_space.h"
 
 namespace ambrig {
 

@@ -6,8 +6,8 @@
 ///
 /// The offset is what a controller without integral action needs to carry a static force (the
 /// weight); Hold sets it. With several speeds the matrices are interpolated by |Omega|
-/// (control/position/gain_schedule.h); the states must mean the same at each. The state goes on while a
-/// force is clamped.
+/// (control/position/gain_schedule.h); the states must mean the same at each. The state goes
+/// on while a force is clamped.
 #include "control/position/position_controller.h"
 
 namespace ambrig {

@@ -10,7 +10,7 @@
 /// W asks for little deviation at rest: below the bandwidth w_b the controller integrates.
 /// Synthesis for the sampled plant by two Riccati equations (SLICOT SB10DD), gamma by bisection.
 /// Source: Zhou, Doyle, Glover 1996; Green, Limebeer 1995.
-#include "control/synthesis/sampled_plant.h"
+#include "control/linear/sampled_plant.h"
 #include "core/base/parameters.h"
 
 namespace ambrig {

@@ -8,11 +8,11 @@
 ///   force      f = -Kx (xf - Nx r) + Nf r - Ki xi          (Nx, Nf: the rest at y = r)
 ///
 /// y_w, xi_w, f_w are the sizes that cost 1; v are the weighed outputs of the shaft
-/// (control/synthesis/plane_weight.h, mode_weight.h). The noise model has independent forces at the bearings,
-/// disturbances of the shaft, and readings. Clamped, the integral stops on the side that e = r - y
-/// pushes to, as the PID's. Source: Franklin, Powell, Workman 1998, chapter 9.
+/// (control/synthesis/plane_weight.h, mode_weight.h). The noise model has independent forces
+/// at the bearings, disturbances of the shaft, and readings. Clamped, the integral stops on the
+/// side that e = r - y pushes to, as the PID's. Source: Franklin, Powell, Workman 1998, chapter 9.
+#include "control/linear/sampled_plant.h"
 #include "control/position/position_controller.h"
-#include "control/synthesis/sampled_plant.h"
 #include "core/base/parameters.h"
 
 namespace ambrig {
@@ -44,7 +44,8 @@ struct LqgDesign {
   double spectral_radius = 0;                        // of the worse of A - B K and A - A L C
 };
 
-/// @throws InputError (`where`: file and line) when the plant cannot be stabilised with these weights.
+/// @throws InputError (`where`: file and line) when the plant cannot be stabilised with these
+/// weights.
 LqgDesign DesignLqg(const SampledPlant& plant, const LqgParameters& p, const std::string& where);
 
 class LqgController : public PositionController {

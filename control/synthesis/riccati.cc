@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "control/synthesis/state_space.h"
+#include "control/linear/state_space.h"
 #include "core/base/parameters.h"
 #include "core/math/linear_equations.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The door to SLICOT, the subroutine library of systems and control theory (Debian libslicot-dev).
 /// Nobody else calls it.
-#include "control/synthesis/state_space.h"
+#include "control/linear/state_space.h"
 
 namespace ambrig {
 

@@ -17,8 +17,8 @@ class AppendFile {
   AppendFile& operator=(const AppendFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// @throws InputError (full disk ...); then every later one too and with the same reason, as the last entry
-  /// may be half and whoever of several threads speaks first must name the cause.
+  /// @throws InputError (full disk ...); then every later one too and with the same reason, as the
+  /// last entry may be half and the thread that reports first must name the cause.
   void Append(std::string_view bytes);
   /// Cuts the file to `size` bytes. @throws InputError
   void Truncate(std::size_t size);

@@ -29,10 +29,12 @@ class AtomicFile {
   std::string temporary_;  // empty once committed
 };
 
-/// Whether the path is a character device or a pipe; sockets, which cannot be opened, and disks are not.
+/// Whether the path is a character device or a pipe; sockets, which cannot be opened, and
+/// disks are not.
 bool IsWrittenInPlace(const std::string& path);
 
-/// Replaces `path` by `content`. Character devices and pipes that somebody reads (/dev/stdout) are written in place.
+/// Replaces `path` by `content`. Character devices and pipes that somebody reads (/dev/stdout) are
+/// written in place.
 /// @throws InputError "cannot write PATH: reason".
 void WriteFileAtomically(const std::string& path, std::string_view content);
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Kinds of failure (CONTRIBUTING.md, House rules): a user's mistake is an InputError with one line
 /// of text; a caller's mistake is a std::logic_error from Require; equations without a solution
-/// within the tolerances are a NoSolution (core/math/no_solution.h); Ctrl-C is Interrupted. A search
-/// or a fit that finds nothing better returns a result that says so.
+/// within the tolerances are a NoSolution (core/math/no_solution.h); Ctrl-C is
+/// Interrupted. A search or a fit that finds nothing better returns a result that says so.
 #include <source_location>
 #include <stdexcept>
 #include <string>
@@ -12,7 +12,8 @@ namespace ambrig {
 /// What a user wrote is wrong: one line with file:line, key, value and what is allowed.
 class InputError : public std::runtime_error {
  public:
-  /// Control characters but tabs in `text`, which quotes keys, names and files as they stand there, become blanks.
+  /// Control characters but tabs in `text`, which quotes keys, names and files as they stand
+  /// there, become blanks.
   explicit InputError(const std::string& text);
 };
 

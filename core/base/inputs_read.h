@@ -1,6 +1,6 @@
 #pragma once
-/// The files that this process read as inputs, in the order of their first reading: the provenance of
-/// what it writes. Thread-safe.
+/// The files that this process read as inputs, in the order of their first reading:
+/// the provenance of what it writes. Thread-safe.
 #include <string>
 #include <vector>
 

@@ -4,8 +4,9 @@
 
 namespace ambrig {
 
-/// Whether the path is a pipe that has a name in a folder, whose other end may never be opened; not what the shell makes
-/// for <(...) and >(...), which is open already, nor /dev/stdin and /dev/stdout.
+/// Whether the path is a pipe that has a name in a folder, whose other end may never be opened; not
+/// what the shell makes for <(...) and >(...), which is open already, nor
+/// /dev/stdin and /dev/stdout.
 bool IsNamedPipe(const std::string& path);
 
 /// The first `limit` bytes of a file. @throws InputError "PATH: no such file" ...

@@ -29,8 +29,8 @@ std::vector<double> AllWithin(const TomlTable& t, std::string_view key,
 std::string ExistingFile(const TomlTable& t, std::string_view key,
                          const std::string& fallback = "");
 
-/// The innermost table that a file has of a path such as "bearings.A.sensor.z", and the rest of the path there: the last
-/// key where the file has all of its tables.
+/// The innermost table that a file has of a path such as "bearings.A.sensor.z", and the rest of the
+/// path there: the last key where the file has all of its tables.
 std::pair<TomlTable, std::string> InnermostOf(const TomlTable& root, const std::string& path);
 
 /// A one-sigma spread [unit] that its parameter can have: at most the width of the range, and at

@@ -1,6 +1,6 @@
 #pragma once
-/// TOML files with some values changed in place: comments, order and layout of the user's text stay,
-/// every other value keeps its digits.
+/// TOML files with some values changed in place: comments, order and layout of the
+/// user's text stay, every other value keeps its digits.
 #include <string>
 #include <variant>
 #include <vector>

@@ -13,8 +13,8 @@ using ZipEntry = std::pair<std::string, std::string>;
 /// @throws InputError "cannot write PATH: reason".
 void WriteZip(const std::string& path, const std::vector<ZipEntry>& entries);
 
-/// Into an existing folder. @throws InputError when it is no zip file, is damaged, has a name that leads
-/// out of the folder, or unpacks to more than 1 GiB.
+/// Into an existing folder. @throws InputError when it is no zip file, is damaged, has a
+/// name that leads out of the folder, or unpacks to more than 1 GiB.
 void UnpackZip(const std::string& path, const std::string& folder);
 
 }  // namespace ambrig

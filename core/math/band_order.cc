@@ -7,7 +7,8 @@ namespace ambrig {
 
 namespace {
 
-/// Unknowns in the order in which a breadth-first search from `start` meets them, few neighbours first.
+/// Unknowns in the order in which a breadth-first search from `start` meets them,
+/// few neighbours first.
 std::vector<int> SearchFrom(const Neighbours& neighbours, int start, std::vector<bool>& met) {
   std::vector<int> order = {start};
   met[start] = true;

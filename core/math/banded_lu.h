@@ -1,7 +1,7 @@
 #pragma once
-/// P A = L U of a complex matrix whose entries lie within a band around the diagonal, by Gaussian elimination
-/// with row pivoting inside the band (LAPACK's zgbtf2). Work: n * below * (below + above).
-/// Source: Golub and Van Loan, Matrix Computations, 4th ed., 4.3.5.
+/// P A = L U of a complex matrix whose entries lie within a band around the diagonal,
+/// by Gaussian elimination with row pivoting inside the band (LAPACK's zgbtf2). Work:
+/// n * below * (below + above). Source: Golub and Van Loan, Matrix Computations, 4th ed., 4.3.5.
 #include <Eigen/Core>
 #include <complex>
 #include <vector>

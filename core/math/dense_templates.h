@@ -1,11 +1,12 @@
 #pragma once
-/// Eigen's decompositions of dense matrices of free size, and the kernels of their products and triangular solves:
-/// declared here and compiled once, in dense_templates.cc, instead of in every source that uses one
-/// (docs/decisions/005-build-time.md). The functions are Eigen's own, so that no result depends on this header.
-/// It stands in the precompiled headers; a build without those compiles the templates where they are used.
+/// Eigen's decompositions of dense matrices of free size, and the kernels of their products
+/// and triangular solves: declared here and compiled once, in dense_templates.cc, instead of in
+/// every source that uses one (docs/decisions/005-build-time.md). The functions are Eigen's own, so
+/// that no result depends on this header. It stands in the precompiled headers; a build without
+/// those compiles the templates where they are used.
 ///
-/// A decomposition is compiled once only if its argument is a matrix: that of an expression is another template,
-/// so that callers write LLT<MatrixXd>(MatrixXd(A + B)).
+/// A decomposition is compiled once only if its argument is a matrix: that of an expression
+/// is another template, so that callers write LLT<MatrixXd>(MatrixXd(A + B)).
 #include <Eigen/Dense>
 #include <complex>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The door to KINSOL, the solver of nonlinear equations in SUNDIALS: F(u) = 0.
 ///
-/// Every return code is checked; a failure is a std::runtime_error with SUNDIALS' own words. Source:
-/// Hindmarsh et al. 2005, ACM TOMS 31(3).
+/// Every return code is checked; a failure is a std::runtime_error with SUNDIALS'
+/// own words. Source: Hindmarsh et al. 2005, ACM TOMS 31(3).
 #include <functional>
 #include <string>
 #include <vector>

@@ -1,10 +1,12 @@
 #pragma once
-/// Linear equations A x = b with dense matrices of free size, inverses, pseudoinverses, eigenvalues of symmetric ones.
-/// Each is one call of Eigen's decomposition of that name; the templates are made here once, instead of in every source
-/// that solves an equation (docs/decisions/005-build-time.md). Equations of fixed size in a period of the controller call Eigen themselves.
+/// Linear equations A x = b with dense matrices of free size, inverses, pseudoinverses, eigenvalues
+/// of symmetric ones. Each is one call of Eigen's decomposition of that name; the templates are
+/// made here once, instead of in every source that solves an equation
+/// (docs/decisions/005-build-time.md). Equations of fixed size in a period of the controller
+/// call Eigen themselves.
 ///
-/// Shapes: A (n x n), b (n), B (n x m) unless a line says otherwise. A singular A is not detected: the result is then
-/// not finite, or rounding errors.
+/// Shapes: A (n x n), b (n), B (n x m) unless a line says otherwise. A singular A is not detected:
+/// the result is then not finite, or rounding errors.
 #include <Eigen/Core>
 
 namespace ambrig {
@@ -21,7 +23,8 @@ Eigen::MatrixXcd SolveComplexColumns(const Eigen::MatrixXcd& A, const Eigen::Mat
 Eigen::VectorXd SolveSymmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 Eigen::MatrixXd SolveSymmetricColumns(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
-/// A = vectors diag(values) vectorsᵀ of a symmetric A, values rising; only its lower triangle is read.
+/// A = vectors diag(values) vectorsᵀ of a symmetric A, values rising; only its lower
+/// triangle is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;  // (n x n), orthonormal columns
@@ -32,7 +35,8 @@ SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& A);
 Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& A);
 Eigen::MatrixXcd ComplexInverseOf(const Eigen::MatrixXcd& A);
 
-/// The x of least length among those of least |A x - b|, A (m x n) of any rank, by complete orthogonal decomposition.
+/// The x of least length among those of least |A x - b|, A (m x n) of any rank, by complete
+/// orthogonal decomposition.
 Eigen::VectorXd SolveLeastNorm(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// The matrix of SolveLeastNorm, (n x m) for A (m x n).

@@ -32,7 +32,8 @@ Shifts ShiftsOf(const MatrixXd& H, Index high, int sweep) {
   return {H(high, high), H(high - 1, high - 1), H(high, high - 1) * H(high - 1, high)};
 }
 
-/// Where the sweep can start because two subdiagonal entries together are small; p: the first column there.
+/// Where the sweep can start because two subdiagonal entries together are small; p: the
+/// first column there.
 Index StartOfSweep(const MatrixXd& H, const Window& at, const Shifts& by, double p[3]) {
   for (Index m = at.high - 2;; --m) {
     const double z = H(m, m), r = by.x - z, s = by.y - z;

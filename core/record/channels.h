@@ -1,6 +1,7 @@
 #pragma once
-/// The table of channels: every quantity that a record may hold, with its name, its unit and who can
-/// read it on a real rig. Names are made from the table and understood by it, nowhere else.
+/// The table of channels: every quantity that a record may hold, with its name, its unit
+/// and who can read it on a real rig. Names are made from the table and understood by
+/// it, nowhere else.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,8 +28,8 @@ enum class ChannelScope { kRig, kDirection, kCoil };
 /// Who can read a channel: the controller itself, only a data logger, only the simulator.
 enum class ChannelReader { kController, kLogger, kSimulator };
 
-/// The least error of a channel that can mean anything: the step of its converter or the rounding of
-/// its file, max(least, part * range).
+/// The least error of a channel that can mean anything: the step of its converter or
+/// the rounding of its file, max(least, part * range).
 struct ChannelResolution {
   enum class Range {
     kNone,

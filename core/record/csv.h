@@ -15,7 +15,7 @@ struct CsvOptions {
   double start = 0;                               // [s]
 };
 
-/// Units as in the file (core/base/units.h converts).
+/// Units as in the file (core/record/units.h converts).
 /// @throws InputError "FILE:LINE:COLUMN: ..." for what is no number, "FILE: row N: ..." for a time
 /// that is not uniform (rows are lines of the file).
 Record ReadCsv(const std::string& path, const CsvOptions& options = {});

@@ -8,9 +8,9 @@
 
 #include "core/base/errors.h"
 #include "core/base/parameters.h"
-#include "core/base/units.h"
 #include "core/record/text_cells.h"
 #include "core/record/time_base.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 

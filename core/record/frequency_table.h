@@ -11,8 +11,8 @@
 
 namespace ambrig {
 
-/// Whether the first column is a frequency (f, freq, frequency with a unit of frequency or none) and
-/// no other is a time.
+/// Whether the first column is a frequency (f, freq, frequency with a unit of frequency
+/// or none) and no other is a time.
 bool IsFrequencyTable(const TextTable& table);
 
 /// Parts of one response are those whose heads agree but for Re/Im, Real/Imag, Abs/Phi,

@@ -20,20 +20,23 @@ namespace ambrig {
 /// ...
 Record ReadHdf5(const std::string& path);
 
-/// Double precision, each channel compressed where that pays (hdf5_deflate_gain.h); same record, same bytes. The file appears complete or not at all.
+/// Double precision, each channel compressed where that pays (hdf5_deflate_gain.h); same record,
+/// same bytes. The file appears complete or not at all.
 /// @throws InputError
 void WriteHdf5(const Record& record, const std::string& path);
 
-/// Several records in one file, each a group with channels, `rate` and `start` of its own; `attributes`
-/// are the file's. Names of groups have neither slash nor dot. @throws InputError
+/// Several records in one file, each a group with channels, `rate` and `start` of
+/// its own; `attributes` are the file's. Names of groups have neither slash nor
+/// dot. @throws InputError
 void WriteHdf5Groups(const std::vector<std::pair<std::string, Record>>& records,
                      const std::map<std::string, std::string>& attributes, const std::string& path);
 
 /// The record of one such group. @throws InputError, also when there is no such group
 Record ReadHdf5Group(const std::string& path, const std::string& group);
 
-/// Tries `read` of the file in a copy of the process first: HDF5 1.10 believes what an attribute says of its own size and place, and a
-/// damaged one crashes it. Under Hdf5Mutex. @throws InputError when the copy crashes or does not end
+/// Tries `read` of the file in a copy of the process first: HDF5 1.10 believes what an attribute
+/// says of its own size and place, and a damaged one crashes it. Under Hdf5Mutex. @throws
+/// InputError when the copy crashes or does not end
 void RefuseWhatCrashesHdf5(const std::string& path, const std::function<void()>& read);
 
 /// Held during every use of the HDF5 library, which may be built without thread safety; the MAT

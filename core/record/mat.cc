@@ -180,7 +180,8 @@ class MatReader {
   FrequencyResponses frequency_;
 };
 
-/// The number of the version, in the byte order of its machine, ends the head: 0x0100 is version 5, 0x0200 is HDF5.
+/// The number of the version, in the byte order of its machine, ends the head: 0x0100 is
+/// version 5, 0x0200 is HDF5.
 bool IsVersion73(const std::string& head) { return head[124] == 2 || head[125] == 2; }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
-/// What the reader and the writer of MATLAB files (mat.cc, mat_structs.cc, mat_writer.cc) share: the
-/// library's objects owned, its numbers and texts. Included by nobody else.
+/// What the reader and the writer of MATLAB files (mat.cc, mat_structs.cc,
+/// mat_writer.cc) share: the library's objects owned, its numbers and texts. Included
+/// by nobody else.
 #include <matio.h>
 
 #include <complex>
@@ -21,8 +22,8 @@ using Variable = std::unique_ptr<matvar_t, Closer>;
 /// a truncated file for a shorter one.
 int CountElements(const std::string& bytes);
 
-/// More bytes than the arrays of this file can have: numbers may be stored in eighths of their size,
-/// and compression takes at most 1032 bytes into one. Damaged sizes ask for more.
+/// More bytes than the arrays of this file can have: numbers may be stored in eighths
+/// of their size, and compression takes at most 1032 bytes into one. Damaged sizes ask for more.
 double MostBytes(const std::string& bytes);
 
 /// Elements of an array: the product of its sizes.

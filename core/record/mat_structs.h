@@ -2,8 +2,8 @@
 /// Structs of MATLAB files that hold signals and their time:
 ///
 ///   dSPACE ControlDesk   s.X(i).Data times; s.Y(k).Name, .Data, perhaps .Unit, .XIndex
-///   Simulink             s.time; s.signals(k).values (rows x signals), .label ("structure with time",
-///                        of To Workspace and Scope)
+///   Simulink             s.time; s.signals(k).values (rows x signals), .label
+///                        ("structure with time", of To Workspace and Scope)
 ///   struct(timeseries)   s.Time; s.Data
 #include <functional>
 #include <optional>

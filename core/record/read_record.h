@@ -11,7 +11,8 @@ namespace ambrig {
 /// becomes the name of its kind. @throws InputError
 Measurement ReadMeasurement(const std::string& path, std::string* format = nullptr);
 
-/// The record over time of the file. @throws InputError, also for a file of frequency responses only
+/// The record over time of the file. @throws InputError, also for a file of
+/// frequency responses only
 Record ReadRecord(const std::string& path);
 
 }  // namespace ambrig

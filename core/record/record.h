@@ -21,7 +21,8 @@ struct Record {
   std::vector<Channel> channels = {};
   std::map<std::string, std::string> attributes = {};  // of the whole record, e.g. its parameters
   std::vector<std::string> notes = {};  // what a reader left out, one line each; never written
-  // Times [s] of the last row before and the first behind each block of rows that a reader found missing.
+  // Times [s] of the last row before and the first behind each block of rows that a
+  // reader found missing.
   std::vector<std::pair<double, double>> gaps = {};
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }

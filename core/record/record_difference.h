@@ -5,8 +5,8 @@
 /// A value a of the first record at time t agrees with the second when the second comes within
 ///   absolute + relative * (largest |a| of the channel)
 /// of it somewhere in [t - time, t + time]; between rows the second is taken as linear. Rows whose
-/// window reaches beyond an end of the second are not judged: what stood there is not recorded. With
-/// all three 0 the samples must be equal bit for bit (0 and -0 apart).
+/// window reaches beyond an end of the second are not judged: what stood there is
+/// not recorded. With all three 0 the samples must be equal bit for bit (0 and -0 apart).
 #include <string>
 #include <vector>
 

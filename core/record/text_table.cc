@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "core/base/errors.h"
-#include "core/base/units.h"
 #include "core/record/date_time.h"
 #include "core/record/text_cells.h"
 #include "core/record/time_base.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 

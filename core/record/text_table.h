@@ -1,8 +1,8 @@
 #pragma once
-/// Tables in text files: one line of names, with units as `[um]`, `(um)` or behind ` / `, perhaps one
-/// line of units, then rows of numbers. The separator (tab, semicolon or comma) is that of the line
-/// of names. Numbers have a decimal point or a decimal comma; an empty cell is NaN. Lines that start
-/// with # before the names are comments.
+/// Tables in text files: one line of names, with units as `[um]`, `(um)` or behind
+/// ` / `, perhaps one line of units, then rows of numbers. The separator (tab, semicolon or comma)
+/// is that of the line of names. Numbers have a decimal point or a decimal comma; an empty cell is
+/// NaN. Lines that start with # before the names are comments.
 ///
 /// Columns of dates, times of day or both become one column `t` [s] from the first row on.
 #include <map>

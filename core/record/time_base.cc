@@ -8,10 +8,10 @@
 
 #include "core/base/errors.h"
 #include "core/base/parameters.h"
-#include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "core/record/text_cells.h"
 #include "core/record/time_gaps.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 

@@ -31,9 +31,9 @@ TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
 /// @throws InputError starting with `where`: the name of the file, "cannot write NAME" ...
 void CheckRecord(const Record& record, const std::string& where);
 
-/// What every reader does last. Names become UTF-8. A channel of times (unit s, ms, us) is the time base, not a
-/// signal: removes it, takes rate and start from it where rate is 0, otherwise checks that they
-/// agree. Then CheckRecord. @throws InputError starting with `where`.
+/// What every reader does last. Names become UTF-8. A channel of times (unit s, ms, us) is the time
+/// base, not a signal: removes it, takes rate and start from it where rate is 0, otherwise
+/// checks that they agree. Then CheckRecord. @throws InputError starting with `where`.
 void FinishRecord(Record& record, const std::string& where, std::size_t header_rows = 0);
 
 }  // namespace ambrig

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/base/errors.h"
-#include "core/base/units.h"
 #include "core/record/column_names.h"
+#include "core/record/units.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "effects/catalogue.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

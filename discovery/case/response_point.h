@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -8,9 +8,9 @@
 
 #include "core/base/coil_name.h"
 #include "core/base/toml_checked.h"
-#include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "core/record/read_record.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 

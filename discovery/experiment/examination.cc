@@ -8,8 +8,8 @@
 #include "core/base/coil_name.h"
 #include "core/math/constants.h"
 #include "core/math/noise.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {

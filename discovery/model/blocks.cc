@@ -8,7 +8,7 @@
 #include "discovery/model/controller_block.h"
 #include "discovery/model/record_traits.h"
 #include "discovery/model/residual_force.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 #include "simulation/switching/switching_engine.h"

@@ -2,7 +2,7 @@
 
 #include "actuators/magnetics/radial_stator.h"
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {

@@ -5,7 +5,7 @@
 
 #include "core/base/coil_name.h"
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

@@ -13,7 +13,7 @@
 #include "discovery/search/signature_bank.h"
 #include "discovery/shape/named_law.h"
 #include "effects/usual_size.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 

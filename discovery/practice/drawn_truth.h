@@ -5,7 +5,7 @@
 #include <string>
 
 #include "effects/effect.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -8,7 +8,7 @@
 #include "discovery/practice/case_score.h"
 #include "discovery/practice/drawn_truth.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 

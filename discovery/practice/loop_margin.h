@@ -1,7 +1,7 @@
 #pragma once
 /// Whether a sampled machine is one that somebody would run: records of a loop at the edge of stability
 /// show its initial state and its noise, whatever else is in it.
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

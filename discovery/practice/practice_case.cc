@@ -17,8 +17,8 @@
 #include "discovery/practice/mistake_draw.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 

@@ -10,8 +10,8 @@
 #include "discovery/experiment/measured_case.h"
 #include "discovery/practice/laws/practice_law.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {

@@ -13,7 +13,7 @@
 #include "discovery/model/record_rows.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 
 namespace ambrig {
 

@@ -5,9 +5,9 @@
 
 #include "core/math/constants.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 
 namespace ambrig {
 

@@ -5,7 +5,7 @@
 
 #include "discovery/search/resonance_estimate.h"
 #include "effects/effect.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -2,12 +2,13 @@
 /// Force of a heteropolar bearing with eight poles as quadratic forms of its coil currents, rotor
 /// centred, ideal iron, all gaps meeting at the rotor (docs/theory/stator.md).
 ///
-///   m_j = tau_j s_j i_j                 magnetomotive force of coil j over N; tau_j: turns left [-]
+///   m_j = tau_j s_j i_j                 magnetomotive force of coil j over N; tau_j: its turns [-]
 ///   B_j = m_j - mean(m)                 flux density of pole j in units of mu0 N / g0
 ///   F   = (mu0 N^2 A / 2 g0^2) sum_j B_j^2 (cos gamma_j, sin gamma_j)
 ///
 /// With i = c0 b + W_v v, W = [b wx wy], and k = 4 mu0 N^2 A / g0^2 the force is F = k c0 v exactly
-/// if these 12 equations hold (Qx = forms.Q[0], Qy = forms.Q[1], scaled so that 1 is the entry k/2):
+/// if these 12 equations hold (Qx = forms.Q[0], Qy = forms.Q[1], scaled so that 1 is
+/// the entry k/2):
 ///
 ///   b'Q b = 0,   w'Q w = 0 (three pairs),   for Q = Qx and Q = Qy
 ///   b'Qx wx = 1,  b'Qy wx = 0,  b'Qx wy = 0,  b'Qy wy = 1

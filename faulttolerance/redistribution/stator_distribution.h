@@ -11,12 +11,12 @@
 ///
 ///   u_b'Q u_b = 0,  u_w'Q u_w = 0 (three pairs),  u_b'Q_a u_w,c = 1 where c is along a, else 0
 ///
-/// Twelve of them with two axes, three with one. They are solved by Levenberg and Marquardt from many
-/// deterministic starts, with the amplifiers' range as one-sided residuals, for the widest disc
-/// |v| <= rho c0; of the solutions at a share of that disc the one of least bias and stiffness counts.
-/// Where the amplifiers' range leaves no such disc, the currents are linearised about those that carry the load:
-/// u_b'Q_a u_b = 2 load_a/(k c0²), the gain the same, the disc about the command of the load.
-/// Source: docs/theory/stators.md.
+/// Twelve of them with two axes, three with one. They are solved by Levenberg and
+/// Marquardt from many deterministic starts, with the amplifiers' range as one-sided residuals, for
+/// the widest disc |v| <= rho c0; of the solutions at a share of that disc the one of least bias
+/// and stiffness counts. Where the amplifiers' range leaves no such disc, the currents are
+/// linearised about those that carry the load: u_b'Q_a u_b = 2 load_a/(k c0²), the gain the same,
+/// the disc about the command of the load. Source: docs/theory/stators.md.
 #include <Eigen/Dense>
 #include <memory>
 
@@ -45,14 +45,16 @@ struct StatorDistribution {
   Eigen::Vector2d load = Eigen::Vector2d::Zero();       // about which it is linearised [N]
 };
 
-/// Exact, else linearised about the load, else about no force, else none. The load of the answer says which.
+/// Exact, else linearised about the load, else about no force, else none. The load of the
+/// answer says which.
 StatorDistribution SolveStator(const StatorProblem& problem);
 
 /// All figures of a given W, about the command of the problem's load.
 StatorDistribution DescribeStator(const StatorProblem& problem, SolvabilityClass cls,
                                   const Eigen::MatrixXd& W);
 
-/// Whether the equations can be met with currents of any sign and size up to 50 times the healthy ones.
+/// Whether the equations can be met with currents of any sign and size up to 50 times
+/// the healthy ones.
 SolvabilityClass ClassifyStator(const StatorProblem& problem);
 
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 #pragma once
-/// The equations of stator_distribution.h in the entries x = [b, wx, wy] of the coils that are left, b the
-/// currents at the problem's load over c0, and their least-squares solution. Errors are over k/2.
+/// The equations of stator_distribution.h in the entries x = [b, wx, wy] of the coils that are
+/// left, b the currents at the problem's load over c0, and their least-squares solution. Errors
+/// are over k/2.
 #include <Eigen/Dense>
 #include <vector>
 
@@ -15,7 +16,8 @@ class StatorForms {
   int live() const { return static_cast<int>(live_.size()); }
   int size() const { return (1 + axes_) * live(); }
   int equations() const { return static_cast<int>(targets_.size()); }
-  /// The first ones: the load and nothing else at its command, full gain; what is left beyond them grows with |v|².
+  /// The first ones: the load and nothing else at its command, full gain; what is left beyond them
+  /// grows with |v|².
   int linear_equations() const { return axes_ * (1 + axes_); }
 
   Eigen::VectorXd Errors(const Eigen::VectorXd& x) const;
@@ -48,9 +50,9 @@ struct StatorBounds {
   double Violation(const StatorForms& forms, const Eigen::VectorXd& x) const;
 };
 
-/// Levenberg and Marquardt from x: the first `equations` at full weight, the others at first at `weight_of_others`, the
-/// bounds one-sided, the entries times `damping`. Ends on the equations to rounding when they can be met.
-/// Returns their largest error.
+/// Levenberg and Marquardt from x: the first `equations` at full weight, the others at first at
+/// `weight_of_others`, the bounds one-sided, the entries times `damping`. Ends on the equations to
+/// rounding when they can be met. Returns their largest error.
 double SolveStatorForms(const StatorForms& forms, int equations, double weight_of_others,
                         const StatorBounds& bounds, double damping, Eigen::VectorXd& x);
 

@@ -14,6 +14,7 @@ constexpr double kLonger = 4;
 constexpr int kLooks = 3;
 constexpr double kIdleFirst = 10e-3, kIdleAgain = 50e-3, kBetween = 8e-3;  // [s] of idle coils
 constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of the orbit; [m]
+constexpr double kLeastOfRoom = 0.025;  // growth after a derating, of the rotor's room
 
 }  // namespace
 
@@ -29,6 +30,7 @@ void CoilProbes::Orbit(double t, double x, double y) {
   }
   slice_[0].orbit = std::max(slice_[0].orbit, displacement);
   for (auto& [coil, look] : looks_) look.orbit_after = std::max(look.orbit_after, displacement);
+  for (auto& [coil, derating] : deratings_) derating.after = std::max(derating.after, displacement);
 }
 
 double CoilProbes::Motion() const {
@@ -54,6 +56,24 @@ void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
   look.left = kLooks;
   look.false_current = cls == FaultClass::kCurrentSensor;
   looks_[coil] = look;
+}
+
+void CoilProbes::Derated(int coil, double t, double room) {
+  deratings_[coil] = {t, std::max(slice_[0].orbit, slice_[1].orbit), 0, kLeastOfRoom * room};
+}
+
+int CoilProbes::MadeWorse(double t) {
+  for (auto it = deratings_.begin(); it != deratings_.end();) {
+    const auto [coil, d] = *it;
+    const bool grown = d.after > kGrowth * d.before + d.least_growth;
+    if (!grown && t < d.at + kFirst) {
+      ++it;
+      continue;
+    }
+    it = deratings_.erase(it);
+    if (grown) return coil;
+  }
+  return -1;
 }
 
 bool CoilProbes::FalseCurrent(int coil) const {

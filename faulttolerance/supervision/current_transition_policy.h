@@ -4,8 +4,9 @@
 ///   jump              all set-points at once; the current loops run into their voltage limit
 ///   ramp              each set-point at most as fast as its coil's voltage allows
 ///   bias-first        the new bias as by `ramp` with the old control currents; then the new ones
-///   force-preserving  a straight line, corrected to the wanted force at every step (network_force.h)
-///   time-optimal      a straight line, so fast that one coil of the coupled network is at its limit
+///   force-preserving  a straight line, corrected to the wanted force at every step
+///                     (network_force.h)
+///   time-optimal      a straight line, so fast that a coil of the coupled network is at its limit
 #include <string>
 
 #include "control/current/current_transition.h"

@@ -7,7 +7,7 @@
 #include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/stator_failure_map.h"
 #include "faulttolerance/supervision/watched_bearing.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -64,7 +64,7 @@ void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& cont
     held.HoldCurrent(now, resistance);
     const double before = held.integral();
     held.HoldCurrent(next[j], resistance * w.turns_left[j]);
-    const bool moves = now > 0.2 && next[j] > 0.2;
+    const bool moves = now > kInterruptedCurrent && next[j] > kInterruptedCurrent;
     out.actions.push_back(
         SetIntegral{w.index, j, moves ? integral + held.integral() - before : held.integral()});
   }
@@ -81,6 +81,7 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   }
   if (!w.bearing->kind->eight_poles) {
     map->W = w.healthy->W;
+    map->unipolar = w.healthy->unipolar;
     return w.bearing->kind->redistribute(*w.bearing, w.turns_left, *map);
   }
   if (!w.table)

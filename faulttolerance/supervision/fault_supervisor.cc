@@ -7,9 +7,10 @@
 
 #include "core/base/coil_name.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/watched_bearing.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -24,7 +25,6 @@ constexpr double kCalm = 0.2;          // of the clearance: motion while idle co
 constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
 constexpr double kBusyCurrent =
     0.25;  // of it, of a bearing that has lost turns: a coil that is idle no more
-constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
 }  // namespace
 
@@ -104,7 +104,10 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
     ++w.doubtful_periods;
     Doubt(w, t, events);
   }
-  if (options_.redistribute) Probe(w, t, in, m.position_loop, control, out);
+  if (options_.redistribute) {
+    Probe(w, t, in, m.position_loop, control, out);
+    if (m.position_loop) TakeOutDerated(w, t, control, out);
+  }
   if (alarm.coil < 0) return;
   const std::string name = CoilName(w.bearing->name, alarm.coil);
   if (alarm.raised) w.alarmed = alarm.coil;
@@ -133,14 +136,26 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
         {t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
   }
   if (!options_.redistribute || w.detector->doubtful()) return;
+  ActOn(alarm, w, t, m.position_loop, control, out);
+}
+
+void FaultSupervisor::ActOn(const DetectorAlarm& alarm, Watched& w, double t, bool position_loop,
+                            const BearingControl& control, SupervisorOutput& out) {
   if (alarm.diagnosis.cls == FaultClass::kCurrentSensor && w.probes.OtherFalseCurrent(alarm.coil)) {
-    Doubt(w, t, events);
+    Doubt(w, t, out.events);
+    Refuse(w, alarm.diagnosis);
+    for (const Diagnosis& d : alarm.more) Refuse(w, d);
+    return;
+  }
+  if (NothingElseCarries(w, alarm, control)) {
+    out.events.push_back({t, "not_redistributed", w.bearing->name, "nothing else carries", 0});
+    Refuse(w, alarm.diagnosis);
     return;
   }
   Disable(w, alarm.diagnosis, out);
   for (const Diagnosis& d : alarm.more) Disable(w, d, out);
   // Set-points that come from outside are not spread over other coils.
-  if (m.position_loop) Redistribute(w, t, control, out);
+  if (position_loop) Redistribute(w, t, control, out);
 }
 
 void FaultSupervisor::Doubt(Watched& w, double t, std::vector<RunEvent>& events) {
@@ -149,12 +164,54 @@ void FaultSupervisor::Doubt(Watched& w, double t, std::vector<RunEvent>& events)
   events.push_back({t, "doubtful", w.bearing->name, "model doubtful", 0});
 }
 
+void FaultSupervisor::Refuse(Watched& w, const Diagnosis& d) {
+  w.detector->SetTurns(d.coil, w.turns_left[d.coil]);
+}
+
+std::string FaultSupervisor::ClassWithout(Watched& w, int coil, const BearingControl& control) {
+  const CoilVector before = w.turns_left;
+  if (!w.healthy) w.healthy = control.map;
+  CurrentMap map = control.map;
+  CoilVector now = CoilVector::Zero();
+  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
+  w.turns_left[coil] = 0;
+  std::string cls = NewMap(w, CommandedForce(control.map, now), &map);
+  w.turns_left = before;
+  return cls;
+}
+
+bool FaultSupervisor::NothingElseCarries(Watched& w, const DetectorAlarm& alarm,
+                                         const BearingControl& control) {
+  return alarm.diagnosis.cls == FaultClass::kCurrentSensor && alarm.more.empty() && w.mapped &&
+         !w.bearing->kind->eight_poles &&
+         ClassWithout(w, alarm.coil, control) == ToText(SolvabilityClass::kNone);
+}
+
+void FaultSupervisor::TakeOutDerated(Watched& w, double t, const BearingControl& control,
+                                     SupervisorOutput& out) {
+  const int coil = w.probes.MadeWorse(t);
+  if (coil < 0 || !w.mapped || !(w.turns_left[coil] > 0) || w.turns_left[coil] >= 1) return;
+  const auto derated = (w.turns_left.array() > 0 && w.turns_left.array() < 1).count();
+  const std::string cls = derated == 1 ? ClassWithout(w, coil, control) : "";
+  if (cls != ToText(SolvabilityClass::kExact) && cls != "force by force") return;
+  w.turns_left[coil] = 0;
+  w.detector->SetTurns(coil, 0);
+  out.actions.push_back(DisableCoil{w.index, coil});
+  w.probes.GivenUp(coil, FaultClass::kPartialShort, t);
+  actions_.push_back(
+      {t, CoilName(w.bearing->name, coil), "disable", "the orbit grew when it was derated"});
+  Redistribute(w, t, control, out);
+}
+
 void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out) {
   const bool lost = d.cls != FaultClass::kPartialShort;
-  w.turns_left[d.coil] = lost ? 0 : w.turns_left[d.coil] * (1 - d.fraction);
+  // Of turns believed to work a negative part may be shorted; no coil has more than all.
+  w.turns_left[d.coil] = lost ? 0 : std::min(1.0, w.turns_left[d.coil] * (1 - d.fraction));
   if (lost) {
     out.actions.push_back(DisableCoil{w.index, d.coil});
     w.probes.GivenUp(d.coil, d.cls, d.time);
+  } else {
+    w.probes.Derated(d.coil, d.time, ClearanceOf(*w.bearing));
   }
   actions_.push_back(
       {d.time, CoilName(w.bearing->name, d.coil), lost ? "disable" : "derate",
@@ -214,11 +271,14 @@ void FaultSupervisor::EndIdleProbe(Watched& w, int coil, double t, const Bearing
   if (found.cls == FaultClass::kNone) return;
   const std::string name = CoilName(w.bearing->name, coil);
   actions_.push_back({t, name, "probe", "faulty"});
+  // A coil that carries nothing is told without a model; the rest says nothing in doubt.
+  const bool no_current = found.cls == FaultClass::kOpen || found.cls == FaultClass::kAmplifierOff;
+  if (w.doubted && !no_current) {
+    Refuse(w, found);
+    return;
+  }
   out.events.push_back({t, "detected", name, "", 0});
   out.events.push_back({t, "classified", name, ToText(found.cls), found.fraction});
-  // A coil that carries nothing is told without a model; the rest is not acted on in doubt.
-  const bool no_current = found.cls == FaultClass::kOpen || found.cls == FaultClass::kAmplifierOff;
-  if (w.doubted && !no_current) return;
   Disable(w, found, out);
   Redistribute(w, t, control, out);
 }
@@ -232,65 +292,6 @@ void FaultSupervisor::Restore(Watched& w, int coil, double turns, double t,
   out.events.push_back({t, "restored", name, reason, 1 - turns});
   actions_.push_back({t, name, "restore", fmt::format("{}, {:.3f} of the turns", reason, turns)});
   if (position_loop) Redistribute(w, t, control, out);
-}
-
-void FaultSupervisor::TraceSlopes(double t) {
-  if (first_alarm_ >= 0 && t > first_alarm_ + kTraceAfter) return;
-  // A row that has become too old lends its memory to the new one.
-  SlopeRow row;
-  if (first_alarm_ < 0 && !rows_.empty() && rows_.front().t < t - kTraceBefore) {
-    row = std::move(rows_.front());
-    rows_.pop_front();
-    row.bearings.clear();
-  }
-  row.t = t;
-  for (const auto& w : watched_) {
-    std::array<Lane, 3> lanes{};
-    for (int j = 0; j < w->bearing->coils(); ++j) {
-      const SlopeBand band = w->detector->Band(j);
-      lanes[0][j] = band.slope;
-      lanes[1][j] = band.expected;
-      lanes[2][j] = band.half_width;
-    }
-    row.bearings.push_back(lanes);
-  }
-  rows_.push_back(std::move(row));
-  while (first_alarm_ < 0 && rows_.front().t < t - kTraceBefore) rows_.pop_front();
-}
-
-SlopeBand FaultSupervisor::Band(std::size_t bearing, int coil) const {
-  return watched_[bearing]->detector->Band(coil);
-}
-
-SupervisorSummary FaultSupervisor::Summary() const {
-  SupervisorSummary summary;
-  summary.coil_periods = coil_periods_;
-  summary.actions = actions_;
-  summary.doubtful = doubtful_;
-  for (const std::unique_ptr<Watched>& w : watched_)
-    if (w->periods > 0) summary.doubtful_share[w->bearing->name] = w->doubtful_periods / w->periods;
-  summary.interfered = interfered_;
-  if (!options_.slopes || rows_.empty()) return summary;
-  const Watched& w = *watched_[alarm_bearing_];
-  const int coils = w.bearing->coils();
-  std::vector<int> shown;
-  for (int step : {0, 1, coils - 1, coils / 2}) {
-    const int j = (alarm_coil_ + step) % coils;
-    if (std::find(shown.begin(), shown.end(), j) == shown.end()) shown.push_back(j);
-  }
-  for (int j : shown) {
-    SlopeTrace trace;
-    trace.coil = CoilName(w.bearing->name, j);
-    for (const SlopeRow& row : rows_) {
-      const std::array<Lane, 3>& a = row.bearings[w.index];
-      trace.t.push_back(row.t);
-      trace.slope.push_back(a[0][j]);
-      trace.low.push_back(a[1][j] - a[2][j]);
-      trace.high.push_back(a[1][j] + a[2][j]);
-    }
-    summary.slopes.push_back(std::move(trace));
-  }
-  return summary;
 }
 
 }  // namespace ambrig

@@ -9,9 +9,9 @@
 ///     command of the position loop stays as it is (bumpless in force)
 ///   - every regulator's integral is moved by what its new current needs (bumpless in voltage)
 ///   - a coil that was switched off is looked at again and may return (coil_probes.h)
-/// A bearing whose controller commands currents itself is told so ("not_redistributed"): its map waits
-/// for a controller that uses it, and its regulators are left alone. So is one that nothing is left
-/// of that gives its forces, though its coils that work go on with what they can.
+/// A bearing whose controller commands currents itself is told so ("not_redistributed"):
+/// its map waits for a controller that uses it, and its regulators are left alone. So is one that
+/// nothing is left of that gives its forces, though its coils that work go on with what they can.
 /// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
 #include <deque>
 #include <map>
@@ -20,8 +20,8 @@
 #include "faulttolerance/redistribution/redistribution_table.h"
 #include "faulttolerance/supervision/current_transition_policy.h"
 #include "faulttolerance/supervision/supervisor.h"
+#include "fdd/detectors/detection_feed.h"
 #include "fdd/detectors/run_detector.h"
-#include "fdd/measurement/detection_feed.h"
 #include "rig/nominal_rig.h"
 
 namespace ambrig {
@@ -58,8 +58,20 @@ class FaultSupervisor : public Supervisor {
   void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
   void WatchBearing(std::size_t k, const PeriodMeasurement& m, const BearingControl& control,
                     SupervisorOutput& out);
+  void ActOn(const DetectorAlarm& alarm, Watched& w, double t, bool position_loop,
+             const BearingControl& control, SupervisorOutput& out);
   /// Says once in a run that the model of the bearing is doubtful.
   void Doubt(Watched& w, double t, std::vector<RunEvent>& events);
+  /// A diagnosis is not acted on: the detector is told that the coil goes on as before.
+  static void Refuse(Watched& w, const Diagnosis& d);
+  /// The class of the map that would be taken without a coil.
+  std::string ClassWithout(Watched& w, int coil, const BearingControl& control);
+  /// A coil whose derating made the orbit grow is switched off: its turns are not what its slopes
+  /// say (a closed loop of shorted turns), or its current loop is not stable with so few.
+  void TakeOutDerated(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);
+  /// Whether a coil whose reading is false is the last that carries: what it gives with a false
+  /// reading is more than nothing.
+  bool NothingElseCarries(Watched& w, const DetectorAlarm& alarm, const BearingControl& control);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
   void Redistribute(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);

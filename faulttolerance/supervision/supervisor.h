@@ -13,7 +13,8 @@
 
 namespace ambrig {
 
-/// The answer to one switching period. The engine clears it, and applies the actions in their order.
+/// The answer to one switching period. The engine clears it, and applies the actions
+/// in their order.
 struct SupervisorOutput {
   std::vector<ControlAction> actions;
   std::vector<RunEvent> events;  // alarms and what follows from them
@@ -46,8 +47,8 @@ struct SupervisorSummary {
 class Supervisor {
  public:
   virtual ~Supervisor() = default;
-  /// After switching period m.period is measured. `control`: one entry per bearing, as it was during
-  /// the period.
+  /// After switching period m.period is measured. `control`: one entry per bearing, as
+  /// it was during the period.
   virtual void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
                            SupervisorOutput& out) = 0;
   virtual SupervisorSummary Summary() const { return {}; }

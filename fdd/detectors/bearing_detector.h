@@ -23,8 +23,8 @@
 /// A coil with a false sensor carries nothing once its bridge has been kept off for 1 ms: its MMF
 /// is known again, and its reading is taken as zero, also when a second fault is examined.
 ///
-/// Another detector may watch instead (examined_detector.h): then its flags raise the alarm, and the
-/// sums serve to tell when the bearing was healthy last.
+/// Another detector may watch instead (examined_detector.h): then its flags raise the
+/// alarm, and the sums serve to tell when the bearing was healthy last.
 ///
 /// A residual counts only where its equation holds: at least 4 samples in the phase, no current at
 /// zero in the off phase (diodes block), no clipped ADC, a known bus and position, no gap nearly

@@ -17,8 +17,8 @@ class CoilDetector {
   virtual Lane Period(const MeasuredPeriod& in) = 0;
 };
 
-/// A kind of detector: each one's file has a function that returns it, and detector_catalogue.cc has
-/// one line with the function's name.
+/// A kind of detector: each one's file has a function that returns it, and detector_catalogue.cc
+/// has one line with the function's name.
 struct CoilDetectorKind {
   std::string_view name, unit, doc;
   double threshold;  // that its source or its code uses; nan: none

@@ -38,7 +38,8 @@ std::unique_ptr<RunDetector> MakeRunDetector(const std::string& kind, const std:
   for (const CoilDetectorKind& k : CoilDetectorKinds()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", k.name);
     if (k.name != kind) continue;
-    // The kinds of the list know eight poles, sides or single magnets; any stator has one of its own.
+    // The kinds of the list know eight poles, sides or single magnets; any stator has one
+    // of its own.
     if (setup.model.coupling == Coupling::kNetwork) return MakeLinkageBalance(setup);
     return k.make_run ? k.make_run(setup) : std::make_unique<ExaminedDetector>(k, setup);
   }

@@ -4,8 +4,9 @@
 ///
 ///   - An alarm is raised when the largest statistic of the coils that are not lost exceeds the
 ///     threshold; it names that coil until the examination finds another one to be the faulty one.
-///   - After a diagnosis the flagging detector begins again with the circuit that is left, so that a
-///     partial short that is known raises no second alarm; lost coils are not looked at any more.
+///   - After a diagnosis the flagging detector begins again with the circuit that is left,
+///     so that a partial short that is known raises no second alarm; lost coils are not looked
+///     at any more.
 ///   - After a diagnosis and after an alarm that the examination cleared, nothing is flagged for 25
 ///     periods (1 ms of the reference rig): the currents move, and a statistic that holds its value
 ///     would raise the same alarm again.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "fdd/circuit/inductance_matrix.h"
 #include "fdd/detectors/linkage_phases.h"
 #include "fdd/measurement/period_slopes.h"
-#include "fdd/model/inductance_matrix.h"
 
 namespace ambrig {
 

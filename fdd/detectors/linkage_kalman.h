@@ -18,8 +18,8 @@
 /// periods. Between periods L^-1 runs linearly from the sensed position at the start to that at the
 /// end. Source: Mehra and Peschon, Automatica 7 (1971), innovations as a fault test; Noel, Tammi,
 /// Buckner 2008 (Kalman filter on magnetic bearings).
+#include "fdd/circuit/inductance_matrix.h"
 #include "fdd/detectors/coil_detector.h"
-#include "fdd/model/inductance_matrix.h"
 
 namespace ambrig {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fdd/model/inductance_matrix.h"
+#include "fdd/circuit/inductance_matrix.h"
 
 namespace ambrig {
 
@@ -100,7 +100,8 @@ FaultClass LinkagePhases::ClassOf(int j, double* fraction) const {
   const bool carries = current_[j] >= kCarries * kConducts * seen_ || least_current_[j] > kConducts;
   if (!carries && sampling_.amplifier->quadrants < 3) return FaultClass::kNone;
   const double rising = up_[lane].c(), falling = down_[lane].c();
-  // The current loop soon asks for no drive up at all: what rises under a drive down is enough then.
+  // The current loop soon asks for no drive up at all: what rises under a drive down
+  // is enough then.
   if (falling < kStuckDown && (!tells_up || std::abs(rising) < kStuckUp))
     return FaultClass::kSwitchStuckOn;
   if (!tells_up) return FaultClass::kNone;

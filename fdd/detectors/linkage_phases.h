@@ -1,13 +1,15 @@
 #pragma once
-/// Coils of any stator whose slopes are wrong although they carry current, from the linkages between ADC samples:
+/// Coils of any stator whose slopes are wrong although they carry current, from the linkages
+/// between ADC samples:
 ///
-///   E = λ(i, r) at sample k+1 - at sample k - D,   D = ∫ (v - R i) dt of a healthy bridge      [Wb]
-///   c = Σ E D/Σ D²  over a window, separately where the bridge drives up (D > 0) and where it drives down
+///   E = λ(i, r) at sample k+1 - at sample k - D,   D = ∫ (v - R i) dt of a healthy bridge   [Wb]
+///   c = Σ E D/Σ D²  over a window, separately where the bridge drives up (D > 0) and down
 ///
-/// λ is the nominal network's with the measured currents of all coils (pole_network.h). A healthy coil has c = 0 in
-/// both phases; a share s of its turns bypassed (1 - s)^-2 - 1; a current sensor with the gain g about g - 1, a frozen one -1;
-/// a switch that stays on 0 up and -2 down. Gross ones are told, twice in a row: tolerances of gap and leakage leave
-/// tenths. The window is as long as the noise of the samples asks for. Source: docs/theory/stators.md.
+/// λ is the nominal network's with the measured currents of all coils (pole_network.h). A healthy
+/// coil has c = 0 in both phases; a share s of its turns bypassed (1 - s)^-2 - 1; a current sensor
+/// with the gain g about g - 1, a frozen one -1; a switch that stays on 0 up and -2 down. Gross
+/// ones are told, twice in a row: tolerances of gap and leakage leave tenths. The window is as long
+/// as the noise of the samples asks for. Source: docs/theory/stators.md.
 #include <array>
 
 #include "fdd/diagnosis.h"

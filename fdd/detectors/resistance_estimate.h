@@ -1,5 +1,6 @@
 #pragma once
-/// Resistance of coils while they run: copper that warms up, drops that differ from the nominal ones.
+/// Resistance of coils while they run: copper that warms up, drops that differ from
+/// the nominal ones.
 #include "fdd/detectors/coil_detector.h"
 
 namespace ambrig {

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "fdd/detectors/kept_period.h"
 #include "fdd/diagnosis.h"
+#include "fdd/measurement/kept_period.h"
 
 namespace ambrig {
 
@@ -55,8 +55,13 @@ class RunDetector {
   /// supervisor reports but changes no current.
   virtual bool doubtful() const { return false; }
 
+  /// The supervisor has not done what the last diagnosis of a coil says: the coil goes on with this
+  /// share of its turns, 0: switched off.
+  virtual void SetTurns(int /*coil*/, double /*share*/) {}
+
   /// A look at a coil that was given up, or that its loop asks for no current: from the next period
-  /// on a small current is asked of it. Returns false where the detector cannot take one. No coil is diagnosed meanwhile.
+  /// on a small current is asked of it. Returns false where the detector cannot take one. No coil
+  /// is diagnosed meanwhile.
   virtual bool BeginProbe(int) { return false; }
   /// What the probe that runs has shown so far.
   virtual ProbeAnswer Probed() const { return ProbeAnswer::kNone; }

@@ -10,9 +10,9 @@
 ///
 /// The current at the start of the period is measured, so that what neighbours did before does not
 /// count.
+#include "fdd/circuit/inductance_matrix.h"
 #include "fdd/detectors/resistance_estimate.h"
 #include "fdd/detectors/slope.h"
-#include "fdd/model/inductance_matrix.h"
 
 namespace ambrig {
 

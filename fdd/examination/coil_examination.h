@@ -17,8 +17,8 @@
 /// Costs are sums of squares over their variances plus a penalty per free quantity.
 #include <vector>
 
-#include "fdd/detectors/kept_period.h"
 #include "fdd/diagnosis.h"
+#include "fdd/measurement/kept_period.h"
 #include "fdd/model/linkage_model.h"
 
 namespace ambrig {

@@ -112,7 +112,8 @@ bool Settle(Trial& trial, const std::vector<int>& unknown, Lane* share, Excess* 
   return true;
 }
 
-/// Where one winding of a thrust side explains the c of both, the other one keeps its turns and is no unknown.
+/// Where one winding of a thrust side explains the c of both, the other one keeps its turns and
+/// is no unknown.
 void PreferOneWinding(Trial& trial, const Lane& believed, std::vector<int>* unknown, Lane* share) {
   const auto left_over = [&](int failed, Lane* tried) {
     *tried = *share;

@@ -4,7 +4,7 @@
 /// current.
 #include <vector>
 
-#include "fdd/detectors/kept_period.h"
+#include "fdd/measurement/kept_period.h"
 #include "fdd/model/linkage_model.h"
 
 namespace ambrig {

@@ -12,7 +12,7 @@
 /// without current (open) adds no equation and no flux, so shorts are found beside it.
 #include <vector>
 
-#include "fdd/detectors/kept_period.h"
+#include "fdd/measurement/kept_period.h"
 #include "fdd/model/linkage_model.h"
 
 namespace ambrig {

@@ -1,6 +1,6 @@
 #pragma once
-/// Gauss-Newton descent over the circuit of a bearing, with its coils fitted to each circuit that is tried:
-/// the numerical part of commissioning_fit.h.
+/// Gauss-Newton descent over the circuit of a bearing, with its coils fitted to each circuit
+/// that is tried: the numerical part of commissioning_fit.h.
 #include <Eigen/Dense>
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fdd/model/slope_excess.h"
+#include "fdd/circuit/slope_excess.h"
 
 namespace ambrig {
 
@@ -49,8 +49,9 @@ inline CommissionedBearing NominalBearing(const std::string& name, const Linkage
   return b;
 }
 
-/// Band of |c| of one coil over window w: beyond what healthy running made of it, and beyond a floor that is the same
-/// loss of turns for every coil. `of_loss`: its c over a small loss (fdd/model/loss_excess.h).
+/// Band of |c| of one coil over window w: beyond what healthy running made of it, and beyond a
+/// floor that is the same loss of turns for every coil. `of_loss`: its c over a small loss
+/// (fdd/model/loss_excess.h).
 inline double HealthyBand(const CommissionedBearing& b, int w, int coil, double of_loss) {
   constexpr double kAlone = 2;  // of a coil that shares no core, which the floors are those of
   return std::max(kExcessFloor[w] * of_loss / kAlone, kBandOverHealthy * b.largest[w][coil]);

@@ -10,7 +10,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kKneePays = 0.98;  // of the cost
-// Offsets trade against resistances and slow relaxations: only for a model that does not express the plant without.
+// Offsets trade against resistances and slow relaxations: only for a model that does not express
+// the plant without.
 constexpr double kOffsetPays = 0.7;
 // Eight parameters more may express something else than run-out.
 constexpr double kRunOutPays = 0.7;
@@ -30,8 +31,9 @@ struct Found {
   double cost = kInfinity;
 };
 
-/// Iron that bends: the knees alone from a start, then `all` parameters together where that costs less than
-/// `promising`; kept where the end costs less than `most` and than what was found before.
+/// Iron that bends: the knees alone from a start, then `all` parameters together where that
+/// costs less than `promising`; kept where the end costs less than `most` and than what
+/// was found before.
 void TryKnees(CircuitFit& fit, Found start, ParameterSet knees, ParameterSet all, double promising,
               double most, Found* found) {
   if (!(fit.Descend(&start.parameters, knees, &start.coils) < promising)) return;
@@ -45,8 +47,8 @@ void TryBothKnees(CircuitFit& fit, const Found& straight, ParameterSet all, Foun
   TryKnees(fit, straight, kKnees, all, most, most, found);
 }
 
-/// Either knee alone from the best circuit `straight` and from where it started: both look much alike, and a step along
-/// both may leave one of them at its limit of 0.
+/// Either knee alone from the best circuit `straight` and from where it started: both look much
+/// alike, and a step along both may leave one of them at its limit of 0.
 void TryEachKnee(CircuitFit& fit, const Found& straight, const Found& start, ParameterSet all,
                  Found* found) {
   for (const int knee : {kFirstKnee, kFirstKnee + 1})
@@ -77,7 +79,8 @@ void TryRunOutWithKnees(CircuitFit& fit, const OutOfRound& round, Found* found) 
   if (best.cost < kRunOutPays * found->cost) *found = best;
 }
 
-/// Bridges that add a voltage of their own: again from the start's circuit and from the best found, with offsets.
+/// Bridges that add a voltage of their own: again from the start's circuit and from the best
+/// found, with offsets.
 void TryOffsets(CircuitFit& fit, const Found& straight, Found* found) {
   fit.AllowOffsets();
   const double most = kOffsetPays * found->cost;
@@ -98,7 +101,8 @@ bool Turned(const CommissioningLog& log) {
   return most - least > 2 * std::numbers::pi;
 }
 
-/// What a plant may have that leaves much: run-out, iron of one knee, both, voltages of the bridges.
+/// What a plant may have that leaves much: run-out, iron of one knee, both, voltages
+/// of the bridges.
 void TryMore(CircuitFit& fit, const Found& start, const Found& straight, bool turned,
              Found* found) {
   OutOfRound round;

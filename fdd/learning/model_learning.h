@@ -6,7 +6,7 @@
 ///
 /// Bayes: normal equations with forgetting over the maker's tolerances as a prior. Coils differ
 /// within a bearing, so that some of the tolerances stays in uncertainty however much was learned.
-#include "fdd/detectors/residual_chart.h"
+#include "fdd/measurement/residual_chart.h"
 
 namespace ambrig {
 

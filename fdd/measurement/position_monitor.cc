@@ -57,18 +57,4 @@ double PositionMonitor::Departure(std::size_t a) const {
 
 std::vector<int> PositionMonitor::TakeNewFaults() { return std::exchange(new_faults_, {}); }
 
-std::vector<double> PlaneWeights(const std::vector<double>& sensor_z, double z) {
-  double n = 0, s = 0, ss = 0;
-  for (double zk : sensor_z) {
-    n += 1;
-    s += zk;
-    ss += zk * zk;
-  }
-  const double det = n * ss - s * s;
-  std::vector<double> w;
-  for (double zk : sensor_z)
-    w.push_back(det > 1e-12 * (ss + 1e-12) ? (ss - s * zk + z * (n * zk - s)) / det : 1 / n);
-  return w;
-}
-
 }  // namespace ambrig

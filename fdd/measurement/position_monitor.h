@@ -58,7 +58,4 @@ class PositionMonitor {
   std::vector<int> new_faults_;
 };
 
-/// Weights w of the planes so that the position at z is Σ w_k y_k.
-std::vector<double> PlaneWeights(const std::vector<double>& sensor_z, double z);
-
 }  // namespace ambrig

@@ -88,8 +88,8 @@ struct StepsInput {
   double noise;
 };
 
-/// The period as nearly all are: every coil conducts throughout, and no step is impossible. Returns false where
-/// that is not so; nothing is kept then.
+/// The period as nearly all are: every coil conducts throughout, and no step is impossible.
+/// Returns false where that is not so; nothing is kept then.
 template <class V>
 [[gnu::always_inline]] inline bool KeepExpected(const StepsInput& in, ReadingJump::State* state) {
   const StepLimits<V> limits(*state, *in.limit, *in.edge, in.noise);
@@ -109,7 +109,8 @@ template <class V>
   const auto depart = [&](const V& step, const Range<V>& range) __attribute__((always_inline)) {
     return Abs(step - range.expected);
   };
-  // Written out for the intervals that begin a period: sums that are chosen by k would live in memory.
+  // Written out for the intervals that begin a period: sums that are chosen by k would
+  // live in memory.
   const auto begin = [&](int k, const Range<V>& rising, Steps<V>& on_steps)
       __attribute__((always_inline)) {
     place += one;

@@ -12,8 +12,8 @@
 
 namespace ambrig {
 
-/// Parts of the nominal gap: no gap is taken for smaller than the first; below the second the error of a sensed position
-/// rules the inductance, and currents are not compared with the model.
+/// Parts of the nominal gap: no gap is taken for smaller than the first; below the second the error
+/// of a sensed position rules the inductance, and currents are not compared with the model.
 inline constexpr double kLeastGap = 0.05, kClosestGap = 0.4;
 
 /// Permeances of all poles while the shaft moves. [H]

@@ -7,7 +7,7 @@
 #include "core/record/hdf5.h"
 #include "core/record/mat.h"
 #include "effects/formula_parser.h"
-#include "rotor/contact/ode_world.h"
+#include "rotor/crosscheck/ode_world.h"
 
 namespace ambrig {
 

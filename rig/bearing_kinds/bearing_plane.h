@@ -1,11 +1,11 @@
 #pragma once
-/// How a bearing meets the shaft: across it at a plane of its own, in x and y, or along it, in z. Kinds of
-/// bearing name these functions in their rows (rig/bearing_kinds/bearing_kind.h).
+/// How a bearing meets the shaft: across it at a plane of its own, in x and y, or along it, in
+/// z. Kinds of bearing name these functions in their rows (rig/parameters/bearing_kind.h).
 #include <array>
 #include <string>
 #include <vector>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

@@ -1,5 +1,5 @@
 /// The kinds of bearing: one line per file of this folder.
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 #define AMBRIG_BEARING_KINDS(KIND) \
   KIND(RadialBearing)              \

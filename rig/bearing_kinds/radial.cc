@@ -1,8 +1,8 @@
 /// Eight poles round the shaft, a floating rotor between them; two axes.
 #include <fmt/format.h>
 
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/bearing_kinds/bearing_plane.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

@@ -1,8 +1,8 @@
-/// Any stator: poles, a winding matrix, permanent magnets (actuators/magnetics/pole_network.h), with
-/// two axes across the shaft or one along it.
-#include "rig/bearing_kinds/bearing_kind.h"
+/// Any stator: poles, a winding matrix, permanent magnets (actuators/magnetics/pole_network.h),
+/// with two axes across the shaft or one along it.
 #include "rig/bearing_kinds/bearing_plane.h"
 #include "rig/bearing_kinds/stator_file.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

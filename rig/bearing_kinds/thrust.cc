@@ -1,8 +1,8 @@
 /// Two windings on each side of a thrust disk; one axis along the shaft.
 #include <fmt/format.h>
 
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/bearing_kinds/bearing_plane.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 
@@ -16,8 +16,8 @@ double ThrustForceConstant(const BearingParameters& b) {
 }
 
 /// Ampere-turns 2 (c0 ± v) of a side are shared in proportion to the turns that are left. A side
-/// without turns: the other one pulls for forces its own way only, and has no bias, which would press
-/// the shaft to its stop. Twice v then gives the largest force of before.
+/// without turns: the other one pulls for forces its own way only, and has no bias,
+/// which would press the shaft to its stop. Twice v then gives the largest force of before.
 std::string ShareSides(const BearingParameters&, const CoilVector& turns_left, CurrentMap& map) {
   const auto turns = [&](int side) { return turns_left[2 * side] + turns_left[2 * side + 1]; };
   const bool one_way = turns(0) == 0 || turns(1) == 0;
@@ -29,6 +29,8 @@ std::string ShareSides(const BearingParameters&, const CoilVector& turns_left, C
       map.W.row(2 * side + q) << (one_way ? 0 : scale), (side == 0 ? v : -v), 0;
     }
   }
+  // A current of the other sign would pull the same way: bridges of four quadrants could drive it.
+  if (one_way) map.unipolar = true;
   return turns(0) + turns(1) == 0 ? "none" : one_way ? "one way" : "exact";
 }
 

@@ -4,13 +4,13 @@
 ///   eta_x'' + 2 zeta w eta_x' + w² eta_x + Omega (Σ_l J_kl eta_yl' - J_k0 alpha') = Σ gain(z) fx
 ///   eta_y'' + 2 zeta w eta_y' + w² eta_y - Omega (Σ_l J_kl eta_xl' + J_k0 beta')  = Σ gain(z) fy
 ///
-/// and the tilt feels  alpha: + Omega J_k0 eta_x',  beta: + Omega J_k0 eta_y'  on its left side. The
-/// shaft centre at z moves by gain(z) eta. The gyroscopic forces do no work.
+/// and the tilt feels  alpha: + Omega J_k0 eta_x',  beta: + Omega J_k0 eta_y'  on its left side.
+/// The shaft centre at z moves by gain(z) eta. The gyroscopic forces do no work.
 /// Source: rotor/shaft/reduction.h.
 #include <utility>
 #include <vector>
 
-#include "rotor/motion/force_term.h"
+#include "rotor/linear/force_term.h"
 
 namespace ambrig {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "rotor/motion/force_term.h"
+#include "rotor/linear/force_term.h"
 
 namespace ambrig {
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "rotor/contact/auxiliary_bearing.h"
+#include "rotor/linear/force_term.h"
 #include "rotor/motion/bending_mode.h"
-#include "rotor/motion/force_term.h"
 #include "rotor/motion/rotor_parameters.h"
 #include "rotor/motion/speed_profile.h"
 
@@ -93,8 +93,9 @@ class RotorModel {
   void Rest(MotionState& s) const;
   /// Base at the deflection under the static load that the stator carries.
   void SettleBase(MotionState& s, double stator_x, double stator_y) const;
-  /// Kinetic energy of the rotor, elastic energy of its modes and of the contacts in auxiliary bearings,
-  /// and gravity's potential [J]. Base, mounts, races and axial stop are not in it.
+  /// Kinetic energy of the rotor, elastic energy of its modes and of the contacts
+  /// in auxiliary bearings, and gravity's potential [J]. Base, mounts, races and axial stop are
+  /// not in it.
   double Energy(const MotionState& s) const;
 
   int dof() const { return dof_; }

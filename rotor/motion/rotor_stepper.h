@@ -1,7 +1,7 @@
 #pragma once
 /// Seam: who moves the rotor over one switching period. The engine's own is RotorModel::Step
-/// (compliant contact, Runge-Kutta); rotor/contact/ode_rotor.h is the independent model.
-#include "rotor/motion/force_term.h"
+/// (compliant contact, Runge-Kutta); rotor/crosscheck/ode_rotor.h is the independent model.
+#include "rotor/linear/force_term.h"
 
 namespace ambrig {
 

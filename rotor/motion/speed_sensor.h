@@ -6,13 +6,13 @@
 ///
 ///   reading = (2 pi / P) n / (t_last - t_before)
 ///
-/// with t_last and t_before the times of the last pulse now and at the reading before. Without a new
-/// pulse the reading stays, but never above what the time since the last one allows. Behind it
-/// stands a first-order lag. An ideal sensor (P = 0) reads the speed itself. A mark on the shaft tells
-/// the angle, without an error.
+/// with t_last and t_before the times of the last pulse now and at the reading before.
+/// Without a new pulse the reading stays, but never above what the time since the last one
+/// allows. Behind it stands a first-order lag. An ideal sensor (P = 0) reads the speed itself. A
+/// mark on the shaft tells the angle, without an error.
 #include <cstdint>
 
-#include "rotor/motion/force_term.h"
+#include "rotor/linear/force_term.h"
 #include "rotor/motion/speed_sensor_parameters.h"
 
 namespace ambrig {

@@ -7,14 +7,15 @@
 ///   M ux'' + C ux' + Omega J uy' + K ux = fx,   M uy'' + C uy' - Omega J ux' + K uy = fy
 /// or in all dofs   M q'' + (D + Omega G) q' + K q = f,  supports included in D and K.
 /// or, with the tension N of the sections, K + N-part (Assemble; not in K of BeamRotor).
-/// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Several shafts, coaxial or
-/// in line, lie one after the other on one axis of nodes (rotor/shaft/several_shafts.h). Units SI.
+/// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Several
+/// shafts, coaxial or in line, lie one after the other on one axis of nodes
+/// (rotor/shaft/several_shafts.h). Units SI.
 #include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 #include "rotor/shaft/several_shafts.h"
 #include "rotor/shaft/shaft_element.h"
 #include "rotor/shaft/support.h"
@@ -78,8 +79,9 @@ struct RotorTotals {
 /// @throws InputError for gaps in the shaft, planes off the shaft or bores wider than the shaft.
 BeamRotor BuildBeam(const BeamDefinition& definition);
 
-/// Four dofs per node (x, y, alpha, beta), then (x, y) of each housing; axial forces and supports as
-/// they are at `speed` [rad/s] included. `xy`: the nodes of the shaft, then the housings.
+/// Four dofs per node (x, y, alpha, beta), then (x, y) of each housing; axial forces
+/// and supports as they are at `speed` [rad/s] included. `xy`: the nodes of the shaft,
+/// then the housings.
 LinearRotor Assemble(const BeamRotor& rotor, double speed = 0);
 /// The same into matrices that are there, for one speed after the other.
 void AssembleInto(const BeamRotor& rotor, double speed, LinearRotor& out);

@@ -28,9 +28,9 @@
 ///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ..., mxx, ..., kzz,
 ///                                      # czz, mzz; over speed = [rad/s] arrays of them;
 ///                                      # carries and on: housings by name
-///     to = "outer"                     # of a [[rotor.support]]: it stands on that shaft, at to_z (z)
-///     layers = "joined"                # | "separate": each layer an element of its own, as ROSS has it
-///     [[rotor.shaft]]                  # name; two or more: sections, disks, ... then say shaft = NAME
+///     to = "outer"                     # of a [[rotor.support]]: it is on that shaft, at to_z (z)
+///     layers = "joined"                # | "separate": each layer an element, as ROSS has it
+///     [[rotor.shaft]]                  # name; two or more: sections, disks, ... say shaft = NAME
 ///     [[rotor.housing]]                # name, mass or mass_x, mass_y, mass_z
 ///     [[rotor.point_mass]]             # z, mass or mass_x, mass_y, mass_z
 ///

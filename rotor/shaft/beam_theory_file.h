@@ -6,7 +6,8 @@
 
 namespace ambrig {
 
-/// What the table does not say stays as it was. @throws InputError for another word, or what does not go together.
+/// What the table does not say stays as it was. @throws InputError for another word, or what does
+/// not go together.
 BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory theory);
 
 }  // namespace ambrig

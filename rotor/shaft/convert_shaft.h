@@ -1,5 +1,6 @@
 #pragma once
-/// A shaft's file from ROSS's kind to ours or back (rotor/shaft/shaft_file.h, rotor/shaft/ross_file.h).
+/// A shaft's file from ROSS's kind to ours or back (rotor/shaft/shaft_file.h,
+/// rotor/shaft/ross_file.h).
 #include <string>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What the elements of a shaft integrate: stiffness and mass of a cross-section, and the rule. Units SI.
+/// What the elements of a shaft integrate: stiffness and mass of a cross-section, and the
+/// rule. Units SI.
 #include <array>
 
 #include "rotor/shaft/shaft_element.h"

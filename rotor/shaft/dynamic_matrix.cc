@@ -8,8 +8,8 @@
 
 namespace ambrig {
 
-/// A shaft's matrix lies within 7 of its diagonal, with housings or coaxial shafts some more; what is wider is left
-/// to a general sparse solver.
+/// A shaft's matrix lies within 7 of its diagonal, with housings or coaxial shafts some more; what
+/// is wider is left to a general sparse solver.
 struct DynamicMatrix::Factors {
   explicit Factors(const Eigen::SparseMatrix<std::complex<double>>& pattern);
   bool Factorise(const Eigen::SparseMatrix<std::complex<double>>& sum);

@@ -1,11 +1,12 @@
 #pragma once
-/// lambda² M + lambda (D + Omega G) + K of a rotor at one speed, sparse: solved in a time that grows with the
-/// number of nodes, not with its cube. lambda [1/s]; i Omega for what turns with the shaft.
+/// lambda² M + lambda (D + Omega G) + K of a rotor at one speed, sparse: solved in a time that
+/// grows with the number of nodes, not with its cube. lambda [1/s]; i Omega for what turns
+/// with the shaft.
 #include <Eigen/SparseCore>
 #include <complex>
 #include <memory>
 
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 
 namespace ambrig {
 

@@ -42,8 +42,8 @@ struct ModalStation {
 };
 
 /// One damping ratio per mode; a single one serves all modes. The shaft's Rayleigh damping is
-/// added. With `stations` [m on the beam's axis] their residual modes (rotor/shaft/residual_modes.h) follow the
-/// bending modes, damped as the last of them.
+/// added. With `stations` [m on the beam's axis] their residual modes
+/// (rotor/shaft/residual_modes.h) follow the bending modes, damped as the last of them.
 ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>& damping_ratios,
                     const std::vector<double>& stations = {});
 

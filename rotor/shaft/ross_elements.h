@@ -1,5 +1,6 @@
 #pragma once
-/// The tables of ROSS's rotor file as they stand there (rotor/shaft/ross_file.h says which), TOML or JSON.
+/// The tables of ROSS's rotor file as they stand there (rotor/shaft/ross_file.h says which),
+/// TOML or JSON.
 #include <fmt/format.h>
 
 #include <cmath>

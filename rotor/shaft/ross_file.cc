@@ -134,7 +134,8 @@ void ReadRossTheory(const Element& e, bool first, BeamTheory& theory) {
   theory = t;
 }
 
-/// What the file holds beside shaft, disks and supports: carried as a plane, or named with its size.
+/// What the file holds beside shaft, disks and supports: carried as a plane, or named
+/// with its size.
 void NameTheRest(const Element& e, const RossNodes& nodes, RossRotor& out) {
   std::vector<std::string>& lost = out.ignored;
   if (IsRossMagneticBearing(e)) {

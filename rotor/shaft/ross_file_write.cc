@@ -77,7 +77,8 @@ bool Turns(const SpringSupport& s) {
   return false;
 }
 
-/// A constant support from the right end of a shaft to the left end of the next, which ROSS has as an element.
+/// A constant support from the right end of a shaft to the left end of the next, which ROSS has
+/// as an element.
 bool IsCoupling(const SpringSupport& s, const BeamRotor& nodes) {
   return s.between_shafts() && !s.varies() && Turns(s) &&
          NodeAt(nodes, s.to_z) == NodeAt(nodes, s.z) + 1 && s.kxy == 0 && s.kyx == 0 &&

@@ -1,7 +1,7 @@
 #pragma once
-/// The nodes of a ROSS file and where they lie. A shaft's elements are numbered by their left node; where a number is
-/// missing a shaft ends and another begins: after a coupling element in line with it, else where a
-/// bearing between both (n, n_link) puts it, else with its left end at 0.
+/// The nodes of a ROSS file and where they lie. A shaft's elements are numbered by their left node;
+/// where a number is missing a shaft ends and another begins: after a coupling element in line with
+/// it, else where a bearing between both (n, n_link) puts it, else with its left end at 0.
 #include <string>
 #include <vector>
 

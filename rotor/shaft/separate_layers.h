@@ -4,8 +4,8 @@
 
 namespace ambrig {
 
-/// Sum over the layers of an element, each bent alone: a sleeve (`stiff` false) moves as a shaft of its own
-/// size would, without stiffness. `joined`: matrices of an element of one layer.
+/// Sum over the layers of an element, each bent alone: a sleeve (`stiff` false) moves as a shaft
+/// of its own size would, without stiffness. `joined`: matrices of an element of one layer.
 template <class Matrices, class Joined>
 Matrices SeparateLayers(const ShaftElement& e, const Joined& joined) {
   Matrices out;

@@ -1,8 +1,8 @@
 #pragma once
-/// Several shafts of one rotor, inside one another or in line. They turn at one speed and are held together
-/// by supports between planes of two shafts. So that a place is one number, the nodes of all shafts lie
-/// on one axis, shaft after shaft with gaps between; there z = place on the machine's axis + `shift`.
-/// Elements across a gap hold nothing.
+/// Several shafts of one rotor, inside one another or in line. They turn at one speed and
+/// are held together by supports between planes of two shafts. So that a place is one number, the
+/// nodes of all shafts lie on one axis, shaft after shaft with gaps between; there z = place on the
+/// machine's axis + `shift`. Elements across a gap hold nothing.
 #include <string>
 #include <vector>
 
@@ -26,8 +26,9 @@ std::string PlaceText(const std::vector<PlacedShaft>& shafts, double z);
 
 struct BeamDefinition;
 
-/// Puts a definition whose parts stand at their places on the machine's axis, each with the name of its shaft,
-/// on the axis of nodes. `shafts` has names and left ends. @throws InputError for a shaft without a section.
+/// Puts a definition whose parts stand at their places on the machine's axis, each with the name
+/// of its shaft, on the axis of nodes. `shafts` has names and left ends. @throws InputError for a
+/// shaft without a section.
 void LayOutShafts(BeamDefinition& definition);
 
 /// Places on the axis of nodes from a place on a shaft.

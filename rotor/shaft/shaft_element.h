@@ -9,9 +9,10 @@
 /// An axial force N (tension) adds ∫ N w'w' (dead load; in bending alone). A torque couples
 /// both planes (TorqueMatrix).
 /// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and
-/// laminations (`stiff` = false) mass alone. With `separate_layers` they share end values alone and each
-/// is an element of its own, as in ROSS. Units SI. Sources: Timoshenko beam theory; kappa of
-/// Cowper (J. Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
+/// laminations (`stiff` = false) mass alone. With `separate_layers` they share end values
+/// alone and each is an element of its own, as in ROSS. Units SI. Sources: Timoshenko beam
+/// theory; kappa of Cowper (J. Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for
+/// a hollow circle.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>
@@ -103,9 +104,9 @@ double ShearCoefficientOf(ShearCoefficient kind, double bore_ratio, double nu);
 PlaneElement ElementMatrices(const ShaftElement& element, const BeamTheory& theory);
 
 /// Stiffness of a torque T along the axis over (x, y, alpha, beta) of both ends: virtual work
-/// T ∫ (x'' dy' - y'' dx') of the cubic shapes, with a torque that keeps the axis' direction at both ends; what
-/// two elements of one torque do at their common node cancels. T counts about +z on the right end. Source: Friswell
-/// et al., Dynamics of Rotating Machines, 2010, 5.4.
+/// T ∫ (x'' dy' - y'' dx') of the cubic shapes, with a torque that keeps the axis' direction at
+/// both ends; what two elements of one torque do at their common node cancels. T counts about +z on
+/// the right end. Source: Friswell et al., Dynamics of Rotating Machines, 2010, 5.4.
 Eigen::Matrix<double, 8, 8> TorqueMatrix(double length, double torque);
 
 /// Static shape functions at distance s from the left end.

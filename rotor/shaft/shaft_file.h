@@ -11,8 +11,8 @@ namespace ambrig {
 /// The shaft of a file of its own: ROSS's (.toml, .json), or a .toml with a [rotor] of kind beam, a
 /// rig file among them. `ross`: which one it was; `ignored`: elements of ROSS without a
 /// counterpart.
-/// With `tolerances`, numbers with an sd as ReadBeam gives them. Magnetic bearings of ROSS go to `magnets`, or,
-/// without that, are named among what is ignored.
+/// With `tolerances`, numbers with an sd as ReadBeam gives them. Magnetic bearings of ROSS go
+/// to `magnets`, or, without that, are named among what is ignored.
 BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored = nullptr,
                    std::vector<Tolerance>* tolerances = nullptr,
                    std::vector<RossMagnet>* magnets = nullptr);

@@ -2,7 +2,8 @@
 /// Numbers of a [rotor] table with { value, sd }: what a calibration may move of a shaft.
 ///
 ///   rotor.materials.NAME.E | rho | nu          every section, sleeve and disk made of it
-///   rotor.section[k].od | id | od_right | id_right | damping_mass | damping_stiffness | E | rho | nu
+///   rotor.section[k].od | id | od_right | id_right | damping_mass | damping_stiffness
+///                    | E | rho | nu
 ///   rotor.sleeve[k]. the same                  k from 1, as error messages count
 ///   rotor.disk[k].mass | inertia_diametral | inertia_polar | rho
 ///   rotor.support[k].k | c | kxx | cxx | ...   constant coefficients of a support

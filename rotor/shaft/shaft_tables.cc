@@ -7,7 +7,8 @@
 namespace ambrig {
 namespace {
 
-/// Without mass a place of the shaft has no equation of motion; 0 and -0 are inside the closed range.
+/// Without mass a place of the shaft has no equation of motion; 0 and -0 are inside
+/// the closed range.
 void RequireMass(const TomlTable& row, const Material& m) {
   if (!(m.rho > 0))
     row.Fail("rho", "= 0 kg/m3, allowed: above 0 (0.001 is next to nothing and has a solution)");

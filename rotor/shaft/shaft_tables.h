@@ -1,6 +1,6 @@
 #pragma once
-/// The tables of a shaft's parts: materials, sections and sleeves, disks and supports, each checked as it
-/// is read (rotor/shaft/beam_file.h shows them).
+/// The tables of a shaft's parts: materials, sections and sleeves, disks and supports, each
+/// checked as it is read (rotor/shaft/beam_file.h shows them).
 #include <initializer_list>
 #include <map>
 #include <string>

@@ -55,8 +55,8 @@ Eigen::LLT<Eigen::MatrixXd> FactorOfMass(const LinearRotor& r) {
   return llt;
 }
 
-/// In M^{-1/2} coordinates with velocities scaled by the highest frequency: the matrix then has the size of that
-/// frequency, not of its square, and low modes keep their digits.
+/// In M^{-1/2} coordinates with velocities scaled by the highest frequency: the matrix then has the
+/// size of that frequency, not of its square, and low modes keep their digits.
 Eigen::MatrixXd StateMatrix(const LinearRotor& r, double speed,
                             const Eigen::LLT<Eigen::MatrixXd>& llt) {
   const Eigen::Index n = r.M.rows();

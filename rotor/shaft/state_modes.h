@@ -10,17 +10,19 @@ struct StateModes {
   Eigen::MatrixXcd shape;  // displacements, dofs x eigenvalues
 };
 
-/// The middle and the largest of sqrt(K_ii/M_ii) [1/s]. Supports that count as rigid stand far out: what they are
-/// part of then blurs the low modes of a solver whose error is that of the largest eigenvalue.
+/// The middle and the largest of sqrt(K_ii/M_ii) [1/s]. Supports that count as rigid stand far out:
+/// what they are part of then blurs the low modes of a solver whose error is that of
+/// the largest eigenvalue.
 double UsualRate(const LinearRotor& rotor);
 double StiffestRate(const LinearRotor& rotor);
 inline constexpr double kRigidRate = 1e3;  // of the usual one
 
-/// All eigenvalues. With rigid supports from those of 1/(s - shift), so that the low ones keep their digits. @throws InputError when the mass matrix is singular.
+/// All eigenvalues. With rigid supports from those of 1/(s - shift), so that the low ones keep
+/// their digits. @throws InputError when the mass matrix is singular.
 StateModes SolveState(const LinearRotor& rotor, double speed);
 
-/// The same eigenvalues alone, in a fraction of the time; false where they want their vectors (rigid supports) or do
-/// not converge.
+/// The same eigenvalues alone, in a fraction of the time; false where they want their vectors
+/// (rigid supports) or do not converge.
 bool StatePoles(const LinearRotor& rotor, double speed, Eigen::VectorXcd& s);
 
 /// Those without a frequency, rising; not those of rigid motions, which are 0.

@@ -1,12 +1,13 @@
 #pragma once
-/// What holds a shaft: springs, dampers and added masses between a plane of the shaft, or a housing,
-/// and the ground, another housing or a plane of another shaft (a bearing between coaxial shafts, a coupling). With the relative displacement d = (x, y) of its two sides and
-/// z along the axis, the force on the carried side is
+/// What holds a shaft: springs, dampers and added masses between a plane of the shaft,
+/// or a housing, and the ground, another housing or a plane of another shaft (a bearing between
+/// coaxial shafts, a coupling). With the relative displacement d = (x, y) of its two sides and z
+/// along the axis, the force on the carried side is
 ///   -(k d + c d' + m d'')                  k, c, m of (2 x 2), and kzz, czz, mzz along the axis
-/// and the moments -(kr t + cr t') with the rotations t = (alpha, beta) about x and y and the twist about z; a
-/// housing and the ground do not turn. Constant, or a table over the shaft's speed: linear between its rows or a cubic spline through
-/// them (not-a-knot), the end rows beyond. Housings are rigid bodies that move in x, y (and z).
-/// Units SI, speeds rad/s.
+/// and the moments -(kr t + cr t') with the rotations t = (alpha, beta) about x and y and the twist
+/// about z; a housing and the ground do not turn. Constant, or a table over the shaft's speed:
+/// linear between its rows or a cubic spline through them (not-a-knot), the end rows beyond.
+/// Housings are rigid bodies that move in x, y (and z). Units SI, speeds rad/s.
 #include <cmath>
 #include <string>
 #include <vector>

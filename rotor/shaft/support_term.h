@@ -1,7 +1,7 @@
 #pragma once
-/// A spring and damper between a rig's rotor and its stator (rotor/shaft/support.h), as the engines and
-/// the linear model take it.
-#include "rotor/motion/force_term.h"
+/// A spring and damper between a rig's rotor and its stator (rotor/shaft/support.h), as
+/// the engines and the linear model take it.
+#include "rotor/linear/force_term.h"
 #include "rotor/shaft/support.h"
 
 namespace ambrig {

@@ -19,7 +19,8 @@ LoadRow ShearAt(const BeamTheory& theory, double s) {
   return {0, 1, s, theory.shear ? 0 : s * s / 2};
 }
 
-/// (w, psi) at s of an element clamped at 0: psi = ∫ M/EI dt, w = ∫ (s - t) M/EI + Q/(kappa G A) dt.
+/// (w, psi) at s of an element clamped at 0: psi = ∫ M/EI dt,
+/// w = ∫ (s - t) M/EI + Q/(kappa G A) dt.
 LoadPair ClampedDeflection(const ShaftElement& e, const BeamTheory& theory, double s) {
   LoadPair out = LoadPair::Zero();
   Quadrature(s, [&](double t, double weight) {

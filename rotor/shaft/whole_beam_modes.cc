@@ -32,9 +32,9 @@ MatrixXd Independent(const MatrixXd& a, const MatrixXd& M) {
   return out;
 }
 
-/// One eigenpair of the whole beam next to (s, q); false when the iteration does not end there. Two poles that
-/// are one (a defective pair: a cross-coupling one way at rest) halve the error at each step; the step is
-/// then taken twice.
+/// One eigenpair of the whole beam next to (s, q); false when the iteration does not end there.
+/// Two poles that are one (a defective pair: a cross-coupling one way at rest) halve the error at
+/// each step; the step is then taken twice.
 bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
   const Complex start = s;
   Complex before = 0;
@@ -86,7 +86,8 @@ bool ShapesBesideRigid(const MatrixXd& K, const MatrixXd& M, double shift, Index
   if (llt.info() != Eigen::Success) return false;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(M, shifted);
   if (eigen.info() != Eigen::Success) return false;
-  // Of a rigid support's own motion 1/(w² + shift) is rounding, and so would be its shape: a mesh of few nodes has no more.
+  // Of a rigid support's own motion 1/(w² + shift) is rounding, and so would be its shape: a mesh
+  // of few nodes has no more.
   const Eigen::VectorXd& inverse = eigen.eigenvalues();
   while (kept > 1 && inverse(M.rows() - kept) < 1e-13 * inverse(M.rows() - 1)) --kept;
   MatrixXd low = eigen.eigenvectors().rightCols(kept).rowwise().reverse();

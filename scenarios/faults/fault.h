@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "scenarios/faults/fault_spec.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 /// from the fault's place. Sensors, bridges and the bus are the same in every fidelity; how a
 /// coil's circuit breaks or shorts is the engine's own, which derives from this class.
 #include "effects/plant.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "scenarios/faults/fault.h"
 
 namespace ambrig {

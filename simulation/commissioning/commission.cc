@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "fdd/commissioned/healthy_bands.h"
+#include "fdd/detectors/detection_feed.h"
 #include "fdd/learning/commissioning_file.h"
 #include "fdd/learning/commissioning_fit.h"
-#include "fdd/learning/healthy_bands.h"
-#include "fdd/measurement/detection_feed.h"
 #include "simulation/commissioning/excess_scatter.h"
 #include "simulation/switching/switching_engine.h"
 
@@ -63,6 +63,12 @@ CommissioningResult Commission(const RigParameters& rig, const CommissioningOpti
     const ExcessSettings settings{setup.settings.current_noise, setup.settings.adc_limit};
     CommissionedBearing found = FitCommissioning(rig.bearings[k].name, model,
                                                  setup.settings.sampling, settings, logger.log(k));
+    if (!found.learnt)
+      throw InputError(
+          fmt::format("{}: amplifier.adc_samples_per_period = {}: hardly a phase of bearing {} has "
+                      "the three samples that its slope needs, allowed: more samples (the first "
+                      "two of a period and the one after an edge do not count)",
+                      rig.file, rig.samples_per_period(), found.name));
     found.learnt_on = ContentHashOf(model, rig.amplifier);
     AddHealthyBands(setup, logger.log(k), &found);
     out.scatter.push_back(ScatterOf(setup, logger.log(k), found));

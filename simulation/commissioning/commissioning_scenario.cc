@@ -7,8 +7,8 @@
 
 #include "core/base/coil_name.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -52,8 +52,8 @@ void AddTones(const RigParameters& rig, const CommissioningPlan& plan, Scenario*
     }
 }
 
-/// Currents that move the potential of a floating rotor and nothing else: s_j i_j of all coils alike, no
-/// flux, no force. Only they tell leakage past the rotor from fringing into it.
+/// Currents that move the potential of a floating rotor and nothing else: s_j i_j of all
+/// coils alike, no flux, no force. Only they tell leakage past the rotor from fringing into it.
 void AddPotentialChirp(const RigParameters& rig, const CommissioningPlan& plan, Scenario* s) {
   for (const BearingParameters& b : rig.bearings) {
     const StatorGeometry stator = b.kind->stator(b);

@@ -12,10 +12,11 @@
 /// and a run-up to speed from 55 % on, because run-out shows only when the shaft turns. Without
 /// movement the geometry cannot be learnt: hovering alone leaves false alarms.
 ///
-/// The potential of a floating rotor moves when the ampere-turns of all poles change alike, with the sense of
-/// their windings: no flux and no force follow, only the linkage of the leakage. A healthy machine never does
-/// that, so that its leakage past the rotor and the fringing into the rotor look alike. Coils of one polarity
-/// that lose turns do it, and a model that took one for the other then blames their healthy neighbours.
+/// The potential of a floating rotor moves when the ampere-turns of all poles change alike, with
+/// the sense of their windings: no flux and no force follow, only the linkage of the leakage. A
+/// healthy machine never does that, so that its leakage past the rotor and the fringing into the
+/// rotor look alike. Coils of one polarity that lose turns do it, and a model that took one for the
+/// other then blames their healthy neighbours.
 #include "scenarios/scenario.h"
 
 namespace ambrig {

@@ -1,6 +1,6 @@
 #pragma once
 /// What remains of the statistic in healthy running, over displacement, its speed, and the current.
-#include "fdd/detectors/commissioned_detector.h"
+#include "fdd/commissioned/commissioned_detector.h"
 #include "fdd/learning/commissioning_log.h"
 #include "simulation/commissioning/commission.h"
 

@@ -2,8 +2,9 @@
 /// The plant of a rig as one set of smooth equations between events, for the reference and the
 /// averaged engine:
 ///
-///   dλ_w/dt = v_w - R_w i_w          every winding that carries current (actuators/magnetics/coil_network.h)
-///   q' = v,  v' = a(q, v, magnetic forces, loads, contacts, effects)      rotor/motion/rotor_model.h
+///   dλ_w/dt = v_w - R_w i_w          every winding that carries current
+///                                    (actuators/magnetics/coil_network.h)
+///   q' = v,  v' = a(q, v, magnetic forces, loads, contacts, effects)    rotor/motion/rotor_model.h
 ///   theta' = Omega, Omega' = 0 or torque / Ip where the speed is free
 ///
 /// Events where the equations change are roots of the integrator: a current that reaches zero

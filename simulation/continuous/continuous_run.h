@@ -47,7 +47,8 @@ class ContinuousRun {
  private:
   void Period(long long n);
   void FillInstants(long long n);
-  /// Those from place `from` on are sorted, each stands once and comes after local time `after` [s].
+  /// Those from place `from` on are sorted, each stands once and comes after
+  /// local time `after` [s].
   void OrderInstants(std::size_t from, double after);
   void SetPatterns();
 

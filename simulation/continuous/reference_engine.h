@@ -1,7 +1,8 @@
 #pragma once
 /// The reference engine: the switching rig with every event located, integrated by SUNDIALS to a
 /// tight tolerance. It is the independent reference for the switching engine: its own magnetics
-/// (actuators/magnetics/coil_network), its own integrator, the same laws for rotor, loops and bridges.
+/// (actuators/magnetics/coil_network), its own integrator, the same laws for rotor,
+/// loops and bridges.
 ///
 /// Located exactly: period starts, ADC samples, both edges of every coil's voltage, starts and ends
 /// of loads, faults. Found as roots: currents that reach zero (diodes block), blocked coils that

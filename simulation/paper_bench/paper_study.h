@@ -1,5 +1,6 @@
 #pragma once
-/// Simulation and experiment of the slope detector's paper, repeated from a folder (examples/paper):
+/// Simulation and experiment of the slope detector's paper, repeated from a folder
+/// (examples/paper):
 ///   step_2mH.toml, step_1mH.toml   a step of 1 A on two coils, its figures 4 and 5
 ///   healthy.toml                   pulses on a healthy coil, figure 11 and the error analysis
 ///   open.toml, short.toml          the two faults under the same pulses, figures 12 to 20

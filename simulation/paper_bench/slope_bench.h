@@ -1,7 +1,8 @@
 #pragma once
-/// The experiment of the slope detector's paper on a single coil: what its detector (fdd/detectors/slope.h)
-/// makes of records that hold every sample of the converter. The coil is the one magnet of a rig
-/// whose rotor is clamped (bearing kind "opposed", one coil), simulated like any other rig.
+/// The experiment of the slope detector's paper on a single coil: what its detector
+/// (fdd/detectors/slope.h) makes of records that hold every sample of the converter. The coil is
+/// the one magnet of a rig whose rotor is clamped (bearing kind "opposed", one coil), simulated
+/// like any other rig.
 ///
 /// Source: [loadcurrentslope] (docs/references.bib), sections 3 and 4; docs/paper.md.
 #include <vector>

@@ -25,8 +25,8 @@ struct RunMetrics {
   double longest_contact = 0;  // [s]
 };
 
-/// Fluxes and shaft position of one bearing at an instant, for the report's drawing. The flux of a coil is
-/// that of its pole; of one that links several poles, their mean by its turns.
+/// Fluxes and shaft position of one bearing at an instant, for the report's drawing. The flux of
+/// a coil is that of its pole; of one that links several poles, their mean by its turns.
 struct FluxSnapshot {
   double t = 0;
   std::string bearing, label;

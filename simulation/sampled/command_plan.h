@@ -19,7 +19,8 @@ struct CommandPlan {
   };
   std::vector<Signal> force, reference, current, duty;
 
-  /// A coil that flows `amperes` at t = 0: before that its loop holds it there, whatever is commanded.
+  /// A coil that flows `amperes` at t = 0: before that its loop holds it there,
+  /// whatever is commanded.
   struct StartCurrent {
     int index, bearing;  // as of a coil's signal
     double amperes;
@@ -37,7 +38,8 @@ struct CommandPlan {
     std::size_t controller = 0;  // 0: main, then the rig's others
   };
   std::vector<Switch> switches;
-  // The controller that is designed again after a redistribution, counted likewise; none: as it was.
+  // The controller that is designed again after a redistribution, counted likewise; none:
+  // as it was.
   std::optional<std::size_t> retuned;
 
   static double At(const Signal& s, long long k) {

@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "analysis/linear/control_plant.h"
+#include "control/interface/controller_kind.h"
 #include "control/position/axis_groups.h"
-#include "control/position/controller_kind.h"
 #include "control/position/unbalance_control.h"
 #include "core/base/errors.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/magnet_inverse.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

@@ -6,7 +6,8 @@
 namespace ambrig {
 
 /// One controller of the rig for all its axes; bearings with their own have their PID. `maps`: from
-/// forces to currents, one per bearing, that a synthesis designs for; empty: those of healthy bearings.
+/// forces to currents, one per bearing, that a synthesis designs for; empty: those
+/// of healthy bearings.
 /// @throws InputError when a synthesis fails.
 std::unique_ptr<PositionController> MakeController(const NominalRig& rig,
                                                    const ControllerParameters& c,

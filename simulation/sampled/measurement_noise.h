@@ -9,8 +9,8 @@ namespace ambrig {
 
 class MeasurementNoise {
  public:
-  /// `coils` of each bearing, `axes` position readings, `samples` ADC samples in a period; `timing`: instants of
-  /// samples and edges too.
+  /// `coils` of each bearing, `axes` position readings, `samples` ADC samples in a period;
+  /// `timing`: instants of samples and edges too.
   MeasurementNoise(std::uint64_t seed, const std::vector<int>& coils, std::size_t axes, int samples,
                    bool timing);
 

@@ -36,8 +36,8 @@ class PositionLoop {
   void Sample(long long n, double t);
   /// Position loop of period n, a multiple of M; its set-points are on their way.
   void Tick(long long n, const std::vector<BearingControl>& control);
-  /// This controller is in charge from the next Tick on, without a bump. Only where the scenario may change
-  /// controllers.
+  /// This controller is in charge from the next Tick on, without a bump. Only where the
+  /// scenario may change controllers.
   void TakeOver(std::unique_ptr<PositionController> controller);
   /// Set-points that are due in period n, into `set_point` and `commanded`.
   void Apply(long long n, std::vector<BearingControl>& control);

@@ -1,8 +1,8 @@
 #pragma once
 /// The sampled side of a run, one for all engines: start states, readings, position loop, current
-/// regulators, measurements, the supervisor and its actions, rows of the record. What an engine adds
-/// is how the plant moves from t_n to t_(n+1). The clocks are those of docs/theory/base_model.md sections 3
-/// and 4:
+/// regulators, measurements, the supervisor and its actions, rows of the record. What
+/// an engine adds is how the plant moves from t_n to t_(n+1). The clocks are those of
+/// docs/theory/base_model.md sections 3 and 4:
 ///
 ///   t_n = n T        readings; set-points that are due; duty of period n from the feedback of n-1
 ///   n % M == 0       position loop; its set-points act one controller period later
@@ -19,12 +19,12 @@
 #include "faulttolerance/supervision/supervisor.h"
 #include "rig/rig_assembly.h"
 #include "scenarios/scenario.h"
-#include "simulation/record/run_record.h"
 #include "simulation/record/run_result.h"
 #include "simulation/sampled/command_plan.h"
 #include "simulation/sampled/current_loops.h"
 #include "simulation/sampled/measurement_noise.h"
 #include "simulation/sampled/position_loop.h"
+#include "simulation/sampled/run_record.h"
 #include "simulation/sampled/sampled_bearing.h"
 
 namespace ambrig {
@@ -76,15 +76,15 @@ class SampledDataLoop {
   }
   /// Everything that is sampled at t_n, before the plant moves on.
   void AtPeriodStart(long long n);
-  /// Voltages of coil j over this period with the imperfections of its bridge. `current`: of the coil
-  /// now [A].
+  /// Voltages of coil j over this period with the imperfections of its bridge. `current`:
+  /// of the coil now [A].
   CoilVoltage PatternOf(const SampledBearing& b, int j, double current) const;
   /// The true samples of period n of one bearing (b.measurement.samples of them).
   void Measure(long long n, SampledBearing& b, const Lane* truth);
   /// All bearings of period n are measured: feedback, rows inside the period.
   void EndMeasurement(long long n);
-  /// What was measured in period n goes to the supervisor; its actions are carried out, its events go
-  /// into the result. Returns how many events came.
+  /// What was measured in period n goes to the supervisor; its actions are carried out,
+  /// its events go into the result. Returns how many events came.
   std::size_t Supervise(long long n, RunResult& result);
   /// Shaft centres at the bearings from `motion`.
   void UpdatePositions();

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "core/math/line_weights.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -44,7 +44,8 @@ void SwitchOn(std::vector<BearingControl>& control) {
 }
 
 void PlaceClamped(const TrueRig& rig, const Scenario& scenario, MotionState& s) {
-  double n = 0, sz = 0, szz = 0, sx = 0, sy = 0, szx = 0, szy = 0;
+  std::vector<double> places;
+  std::vector<std::array<double, 2>> centres;
   for (const BearingParameters& b : rig->bearings) {
     const auto it = scenario.clamp.find(b.name);
     const std::array<double, 2> at =
@@ -54,21 +55,20 @@ void PlaceClamped(const TrueRig& rig, const Scenario& scenario, MotionState& s) 
       for (std::size_t c = 0; c < 3; ++c)
         if (axis[c] != 0) s.q[c] = at[0] * axis[c];
     } else {
-      n += 1;
-      sz += b.z;
-      szz += b.z * b.z;
-      sx += at[0];
-      sy += at[1];
-      szx += b.z * at[0];
-      szy += b.z * at[1];
+      places.push_back(b.z);
+      centres.push_back(at);
     }
   }
-  if (n < 2) return;
-  const double det = n * szz - sz * sz;
-  s.q[0] = (szz * sx - sz * szx) / det;
-  s.q[1] = (szz * sy - sz * szy) / det;
-  s.q[4] = (n * szx - sz * sx) / det;
-  s.q[3] = -(n * szy - sz * sy) / det;
+  if (places.size() < 2) return;
+  // The line through the centres: its height at the centre of mass, and its slope.
+  const std::vector<double> here = LineWeights(places, 0), ahead = LineWeights(places, 1);
+  s.q[0] = s.q[1] = s.q[3] = s.q[4] = 0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    s.q[0] += here[k] * centres[k][0];
+    s.q[1] += here[k] * centres[k][1];
+    s.q[4] += (ahead[k] - here[k]) * centres[k][0];
+    s.q[3] -= (ahead[k] - here[k]) * centres[k][1];
+  }
 }
 
 }  // namespace ambrig

@@ -2,7 +2,7 @@
 /// How a run begins, the same in every fidelity. Source: docs/theory/base_model.md section 3.
 #include "control/current/bearing_control.h"
 #include "rig/true_rig.h"
-#include "rotor/motion/force_term.h"
+#include "rotor/linear/force_term.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {

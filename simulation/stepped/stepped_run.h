@@ -1,13 +1,13 @@
 #pragma once
-/// A run of the switching engine whose clock and inputs are somebody else's: one switching period at a
-/// time, with references, forces, loads, speed and faults that change between two periods. Without
-/// inputs it is the scenario's run, bit by bit.
+/// A run of the switching engine whose clock and inputs are somebody else's: one switching
+/// period at a time, with references, forces, loads, speed and faults that change between
+/// two periods. Without inputs it is the scenario's run, bit by bit.
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "faulttolerance/supervision/fault_supervisor.h"
-#include "simulation/record/channel_values.h"
+#include "simulation/sampled/channel_values.h"
 #include "simulation/sampled/command_plan.h"
 #include "simulation/switching/switching_engine.h"
 
@@ -42,8 +42,9 @@ class SteppedRun {
   SteppedRun& operator=(const SteppedRun&) = delete;
 
   SteppedInputs inputs;
-  /// The shaft turns with `speed` [rad/s] from now on, growing by `acceleration` [rad/s2]; the rest of
-  /// the scenario's profile is given up. Without effect where the scenario leaves the speed free.
+  /// The shaft turns with `speed` [rad/s] from now on, growing by `acceleration` [rad/s2];
+  /// the rest of the scenario's profile is given up. Without effect where the scenario leaves
+  /// the speed free.
   void SetSpeed(double speed, double acceleration);
   double speed() const {  // now [rad/s]
     return engine_->loop().plant.rotor.speed().Speed(static_cast<double>(n_) * T());

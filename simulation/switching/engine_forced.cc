@@ -1,19 +1,21 @@
 /// Teacher-forced coils: measured set-points and measured readings drive the amplifiers and the
 /// gaps, so that an error of the coil block shows where it arises. Discovery compares its currents.
 ///
-/// Teacher-forced rotor: measured currents in gaps that follow the measured readings give the forces; the
-/// rotor moves under them. What was measured pulls it along, or it would drift away on the first error:
+/// Teacher-forced rotor: measured currents in gaps that follow the measured readings give
+/// the forces; the rotor moves under them. What was measured pulls it along, or it would drift away
+/// on the first error:
 ///
-///   q' = v + 2 ζ ω K e,  v' = M⁻¹ Q + ω² K e,   e = measured - predicted reading, K: displacements from readings
+///   q' = v + 2 ζ ω K e,  v' = M⁻¹ Q + ω² K e,   e = measured - predicted reading
 ///
-/// with ω of `observer` and ζ = 0.7. A force error ΔF shows as e = ΔF/(m (s² + 2 ζ ω s + ω²)).
+/// with K: displacements from readings, ω of `observer` and ζ = 0.7. A force error ΔF shows as
+/// e = ΔF/(m (s² + 2 ζ ω s + ω²)).
 #include <algorithm>
 #include <cmath>
 
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"
 

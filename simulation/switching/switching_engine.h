@@ -28,8 +28,8 @@ struct EngineOptions : SampledOptions, RunControl {
   int substeps = 1;
   // measured set-points and readings drive the coils; no rotor
   const Record* forced = nullptr;
-  // [Hz], above 0: measured currents of `forced` drive the rotor, the gaps follow its readings, and so does the
-  // rotor itself through an observer of this frequency
+  // [Hz], above 0: measured currents of `forced` drive the rotor, the gaps follow its readings, and
+  // so does the rotor itself through an observer of this frequency
   double observer = 0;
   /// Who moves the rotor; empty: RotorModel::Step.
   std::function<std::unique_ptr<RotorStepper>(const RotorModel&)> stepper = {};

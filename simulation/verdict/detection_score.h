@@ -1,6 +1,7 @@
 #pragma once
-/// What the alarms of a run are worth, judged with the scenario's faults in hand: delays, classes and
-/// false alarms. The one place that compares events of the supervisor with the true faults.
+/// What the alarms of a run are worth, judged with the scenario's faults in hand:
+/// delays, classes and false alarms. The one place that compares events of the supervisor with
+/// the true faults.
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,13 +28,14 @@ struct DetectionScore {
   std::size_t right_class() const;
   /// Of those that are judged.
   bool all_detected() const { return detected() == judged(); }
-  /// The longest among the faults that were detected, or followed by a redistribution [s]; -1: none.
+  /// The longest among the faults that were detected, or followed by a
+  /// redistribution [s]; -1: none.
   double longest_detection() const;
   double longest_redistribution() const;
 };
 
-/// When the rotor was lost: it dropped, or went past the poles, where there is no model. What is said and what
-/// fails after that is not judged. [s], infinity: it was not lost.
+/// When the rotor was lost: it dropped, or went past the poles, where there is no model. What is
+/// said and what fails after that is not judged. [s], infinity: it was not lost.
 double LostAt(const std::vector<RunEvent>& events);
 
 /// `events` in order of time.

@@ -5,7 +5,7 @@
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

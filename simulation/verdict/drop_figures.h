@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/parameters.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "simulation/record/run_result.h"
 
 namespace ambrig {

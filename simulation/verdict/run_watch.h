@@ -1,10 +1,11 @@
 #pragma once
 /// Events and figures of a run, once per switching period, the same in every fidelity: contact,
-/// touchdown, drop, orbit, currents, copper loss. Verdict terms: simulation/verdict/contact_watch.h.
+/// touchdown, drop, orbit, currents, copper loss. Verdict terms:
+/// simulation/verdict/contact_watch.h.
 ///
-/// A shaft in a pole is past what the model covers. A body with one magnet alone is free on the side
-/// where none stands; more than a gap away from the centre there, with nothing that could catch it, it
-/// has fallen: a drop.
+/// A shaft in a pole is past what the model covers. A body with one magnet alone is free
+/// on the side where none stands; more than a gap away from the centre there, with nothing that
+/// could catch it, it has fallen: a drop.
 #include "simulation/sampled/sampled_data_loop.h"
 #include "simulation/verdict/contact_watch.h"
 

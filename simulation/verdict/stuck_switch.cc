@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "core/record/channels.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/magnet_inverse.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -26,7 +26,8 @@ struct Pull {
   }
 };
 
-/// Sets i[k] to the least pull within [lo, hi]: ends, or the vertex of the parabola through three points.
+/// Sets i[k] to the least pull within [lo, hi]: ends, or the vertex of the parabola
+/// through three points.
 void LeastOverOne(const Pull& pull, double lo, double hi, Eigen::Index k, Eigen::VectorXd& i) {
   const double middle = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
   const auto at = [&](double v) {
@@ -40,8 +41,8 @@ void LeastOverOne(const Pull& pull, double lo, double hi, Eigen::Index k, Eigen:
   i[k] = best;
 }
 
-/// Least pull with coil `stuck` at `current`, all others within the amplifiers' range: from every corner of
-/// it, coil by coil until nothing is gained.
+/// Least pull with coil `stuck` at `current`, all others within the amplifiers' range: from
+/// every corner of it, coil by coil until nothing is gained.
 double LeastPull(const Pull& pull, Eigen::Index coils, Eigen::Index stuck, double current,
                  double lo, double hi) {
   double least = kInfinity;
@@ -62,7 +63,8 @@ double LeastPull(const Pull& pull, Eigen::Index coils, Eigen::Index stuck, doubl
   return least;
 }
 
-/// Largest current of the stuck coil, up to `end`, against which the others hold at the pull's place.
+/// Largest current of the stuck coil, up to `end`, against which the others hold at
+/// the pull's place.
 template <class Holds>
 double LargestHeld(const Holds& holds, double end) {
   if (holds(end)) return end;

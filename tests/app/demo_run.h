@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "app/pages/format.h"
 #include "app/pages/run_report.h"
+#include "app/text/format.h"
 
 namespace ambrig::demo {
 

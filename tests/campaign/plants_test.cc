@@ -11,7 +11,7 @@
 #include "campaign/plant_table.h"
 #include "campaign/row.h"
 #include "campaign/run_plan.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "simulation/simulate.h"
 #include "tests/campaign/campaign_folder.h"
 

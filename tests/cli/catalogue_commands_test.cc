@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "effects/catalogue.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 #include "scenarios/faults/fault.h"
 #include "tests/app/html_page.h"
 #include "tests/cli/cli_run.h"

@@ -1,8 +1,8 @@
 // The pages about records, cases and formulas name what the program's own tables have.
 #include "core/base/toml.h"
-#include "core/base/units.h"
 #include "core/record/channels.h"
 #include "core/record/time_base.h"
+#include "core/record/units.h"
 #include "effects/formula.h"
 #include "effects/formula_parser.h"
 #include "tests/cli/cli_run.h"

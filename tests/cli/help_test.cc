@@ -2,7 +2,7 @@
 // in the project's folder; ambrig alone and `ambrig tour` lead somewhere.
 #include <set>
 
-#include "app/commands/screen.h"
+#include "app/text/screen.h"
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {

@@ -2,7 +2,7 @@
 /// The plant on which the syntheses are tested.
 #include <cmath>
 
-#include "control/synthesis/sampled_plant.h"
+#include "control/linear/sampled_plant.h"
 
 namespace ambrig::testing {
 

@@ -8,7 +8,7 @@
 #include "discovery/experiment/examination.h"
 #include "discovery/experiment/measured_case.h"
 #include "discovery/explain/explain.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <set>
 
-#include "fdd/detectors/commissioned_run.h"
-#include "fdd/measurement/detection_feed.h"
+#include "fdd/commissioned/commissioned_run.h"
+#include "fdd/detectors/detection_feed.h"
 #include "simulation/commissioning/commission.h"
 #include "tests/effects/effect_rigs.h"
 

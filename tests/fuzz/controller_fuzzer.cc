@@ -1,5 +1,5 @@
 // [controller] of a rig file, and the files of matrices that it may name.
-#include "control/position/controller_file.h"
+#include "control/interface/controller_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function

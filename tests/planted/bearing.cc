@@ -2,7 +2,7 @@
 /// Planted by tools/planted_change.py: an axial bearing with one winding on each side of its disk, with
 /// parameters of its own that no other part of the program knows.
 #include "effects/plant.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

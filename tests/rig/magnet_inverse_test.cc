@@ -8,7 +8,7 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "core/base/read_file.h"
 #include "core/math/constants.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 #include "tests/cli/cli_run.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "tests/actuators/magnetics/reference_lanes.h"
 
 namespace ambrig {
@@ -54,6 +54,13 @@ TEST(WeightShares, OfTwoBearingsAreALever) {
   EXPECT_NEAR(shares[1][1], -w * a / (b - a), 1e-9);
   EXPECT_THAT(WeightOverAxes(rig),
               ElementsAre(shares[0][0], shares[0][1], shares[1][0], shares[1][1], shares[2][0]));
+}
+
+// A single radial bearing carries all, wherever it is.
+TEST(WeightShares, OfOneBearingIsTheWeight) {
+  RigParameters rig = ReferenceLanesRig();
+  rig.bearings.erase(rig.bearings.begin() + 1);
+  EXPECT_NEAR(WeightShares(rig)[0][1], rig.rotor.mass * 9.81, 1e-9);
 }
 
 // k c0 is the slope of the force at the centre over the control current v, i = W (c0, v, 0).

@@ -8,7 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/read_file.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_checks.h"
 #include "tests/cli/cli_run.h"
 
@@ -120,6 +120,11 @@ TEST(RigFile, TheDetectorRemembersItsLine) {
   EXPECT_EQ(rig.detection.kind, "coupled");
   EXPECT_THAT(rig.detection.where, StartsWith("rig.toml:"));
   EXPECT_THAT(rig.detection.where, HasSubstr("detection.kind"));
+}
+
+// A rig that a program fills itself is watched as one whose file names no detector.
+TEST(RigFile, TheDefaultDetectorIsThatOfTheParameters) {
+  EXPECT_EQ(Read(ReferenceRigText()).detection.kind, RigParameters().detection.kind);
 }
 
 TEST(RigFile, TheSpeedSensorHasWholePulses) {

@@ -9,7 +9,7 @@
 #include "core/math/constants.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/motion/linearise.h"
 #include "rotor/shaft/rotor_modes.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"

@@ -7,7 +7,7 @@
 
 #include "analysis/linear/control_plant.h"
 #include "rig/rig_assembly.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 #include "simulation/sampled/controller_setup.h"
 #include "simulation/switching/switching_engine.h"
 #include "tests/simulation/tum_rig.h"

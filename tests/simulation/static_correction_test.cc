@@ -6,9 +6,9 @@
 
 #include "analysis/dropped_modes.h"
 #include "core/math/constants.h"
+#include "rig/parameters/rig_rotor.h"
 #include "rig/rig_assembly.h"
-#include "rig/rig_rotor.h"
-#include "rotor/motion/linear_rotor.h"
+#include "rotor/linear/linear_rotor.h"
 #include "rotor/shaft/rotor_modes.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"

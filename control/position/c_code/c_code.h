@@ -1,15 +1,18 @@
 #pragma once
 /// Writing a controller as C99 (`ambrig export --controller-c`): one source behind
-/// control/external/ambrig_controller.h that computes, period by period, the bits that the simulated
-/// controller computes: same constants, same operations in the same order (matrix products as Eigen does them).
+/// control/external/ambrig_controller.h that computes, period by period, the bits
+/// that the simulated controller computes: same constants, same operations in the same order
+/// (matrix products as Eigen does them).
 ///
 /// Every class of controllers writes a part: static data and the functions
 ///
 ///   static void PART_hold(const double *force, const double *y, const double *r)
-///   static void PART_step(const double *y, const double *r, const double *excitation, double omega, double *f)
+///   static void PART_step(const double *y, const double *r, const double *excitation,
+///                         double omega, double *f)
 ///   static void PART_track(const double *y, const double *r, double omega, const double *f)
 ///
-/// What hold and track solve for (linear systems) agrees with the simulated one to rounding; zero is zero.
+/// What hold and track solve for (linear systems) agrees with the simulated one to rounding;
+/// zero is zero.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>

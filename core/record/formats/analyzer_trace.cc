@@ -1,5 +1,6 @@
-/// ASCII traces of Stanford Research SR780 and SR785 (manual, "Load Trace Data (ASCII)"): the number
-/// N of points, then N lines `real, imaginary`. The frequencies are not in the file.
+/// ASCII traces of Stanford Research SR780 and SR785 (manual, "Load Trace Data
+/// (ASCII)"): the number N of points, then N lines `real, imaginary`. The frequencies are not
+/// in the file.
 #include <charconv>
 
 #include "core/base/errors.h"

@@ -213,7 +213,8 @@ class TdmsReader {
     if (c.samples.empty()) origins_[e.object] = now;
     const TdmsInstant& origin = origins_[e.object];
     c.timestamps = true;
-    // Whole seconds are exact as doubles; those of a damaged file may be too far apart for an integer.
+    // Whole seconds are exact as doubles; those of a damaged file may be too far apart
+    // for an integer.
     c.samples.push_back(static_cast<double>(now.seconds) - static_cast<double>(origin.seconds) +
                         (now.fraction - origin.fraction));
   }

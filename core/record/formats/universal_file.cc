@@ -1,5 +1,5 @@
-/// Universal Files (.unv, .uff): time responses and frequency responses of their data sets 58 and 58b;
-/// other data sets are skipped.
+/// Universal Files (.unv, .uff): time responses and frequency responses of
+/// their data sets 58 and 58b; other data sets are skipped.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "discovery/practice/laws/practice_law.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 

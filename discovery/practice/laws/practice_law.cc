@@ -7,7 +7,7 @@
 
 #include "core/math/noise.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {

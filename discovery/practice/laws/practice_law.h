@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "effects/effect.h"
-#include "rig/rig_parameters.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 

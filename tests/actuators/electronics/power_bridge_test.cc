@@ -80,6 +80,34 @@ TEST(PowerBridge, FaultsOfTheBridge) {
               1e-12);
 }
 
+// A bridge whose switch stays on has no edges: dead time takes nothing of its voltage.
+TEST(PowerBridge, ABridgeThatIsStuckOnHasNoDeadTime) {
+  for (const Modulation m : {Modulation::kBiState, Modulation::kTriState, Modulation::kChopper}) {
+    const PowerBridge a(Reference(m));
+    BridgeImperfection stuck, late;
+    stuck.stuck_on = late.stuck_on = true;
+    late.dead_time = 1e-6;
+    for (const double duty : {0.02, 0.7})
+      EXPECT_EQ(Mean(a.Pattern(duty, late), 30, 40e-6), Mean(a.Pattern(1, {}), 30, 40e-6));
+  }
+}
+
+// What comes out of a bridge within its dead duty is what it gives at rest: a tri-state bridge then
+// freewheels at a half, the others are off.
+TEST(PowerBridge, NothingComesOutBelowTheDeadDuty) {
+  BridgeImperfection dead;
+  dead.dead_duty = 0.1;
+  const PowerBridge tri(Reference(Modulation::kTriState));
+  for (const double duty : {0.46, 0.5, 0.54})
+    EXPECT_EQ(Mean(tri.Pattern(duty, dead), 30, 40e-6), Mean(tri.Pattern(0.5, {}), 30, 40e-6));
+  EXPECT_EQ(Mean(tri.Pattern(0.6, dead), 30, 40e-6), Mean(tri.Pattern(0.6, {}), 30, 40e-6));
+  for (const Modulation m : {Modulation::kBiState, Modulation::kChopper}) {
+    const PowerBridge a(Reference(m));
+    EXPECT_EQ(Mean(a.Pattern(0.09, dead), 30, 40e-6), Mean(a.Pattern(0, {}), 30, 40e-6));
+    EXPECT_EQ(Mean(a.Pattern(0.11, dead), 30, 40e-6), Mean(a.Pattern(0.11, {}), 30, 40e-6));
+  }
+}
+
 // The end of an on-phase comes late: so much more of the bus; a bridge that does not switch has no edge.
 TEST(PowerBridge, ALateEdgeLengthensTheOnPhase) {
   const double T = 40e-6, U = 30, late = 0.2e-6;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
 #include "tests/simulation/witness.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "actuators/magnetics/coil_network.h"
-#include "fdd/measurement/detection_feed.h"
+#include "fdd/detectors/detection_feed.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_figures.h"
 #include "rig/rig_file.h"

@@ -10,7 +10,7 @@
 #include "discovery/data_gate/data_gate.h"
 #include "discovery/experiment/examination.h"
 #include "discovery/model/floor.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig::testing {

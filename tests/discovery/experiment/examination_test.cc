@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -10,7 +10,7 @@
 #include "discovery/model/floor.h"
 #include "discovery/model/residual.h"
 #include "discovery/practice/hide.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

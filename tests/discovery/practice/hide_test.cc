@@ -11,7 +11,7 @@
 #include "discovery/model/floor.h"
 #include "discovery/model/residual.h"
 #include "discovery/practice/case_score.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -11,7 +11,7 @@
 #include "discovery/model/record_rows.h"
 #include "discovery/search/resonance_starts.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
 

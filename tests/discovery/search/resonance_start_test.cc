@@ -10,7 +10,7 @@
 #include "discovery/search/screen.h"
 #include "discovery/search/start_search.h"
 #include "effects/catalogue.h"
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
 

@@ -188,13 +188,6 @@ TEST(PositionMonitor, FollowsAParabolaExactly) {
   EXPECT_FALSE(m.ready(1.0));  // old readings say nothing
 }
 
-TEST(PositionMonitor, RigidShaftBetweenTwoSensorPlanes) {
-  const auto w = PlaneWeights({-0.135, 0.145}, -0.120);
-  const auto y = [](double z) { return 2e-5 + 3e-4 * z; };
-  EXPECT_NEAR(w[0] * y(-0.135) + w[1] * y(0.145), y(-0.120), 1e-18);
-  EXPECT_DOUBLE_EQ(PlaneWeights({0.1}, 0.3)[0], 1);
-}
-
 // A shaft thrown back between two readings leaves the parabola by at most a step's change of path.
 TEST(PositionMonitor, AnImpactIsNoFaultOfASensorWhenOneIsPossible) {
   const double v = 0.5, h = 8e-5;

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "fdd/circuit/inductance_matrix.h"
 #include "fdd/detectors/linkage_phases.h"
-#include "fdd/model/inductance_matrix.h"
 #include "tests/fdd/stator_bench.h"
 
 namespace ambrig {

@@ -1,4 +1,4 @@
-// Positions between readings, sensors that fail, and lines through several sensor planes.
+// Positions between readings, and sensors that fail.
 #include "fdd/measurement/position_monitor.h"
 
 #include <gmock/gmock.h>
@@ -132,24 +132,6 @@ TEST(PositionFault, NoiseIsTakenOffADeparture) {
   EXPECT_NEAR(quiet.Departure(0) - noisy.Departure(0), 6 * std::sqrt(20.0) * noise, 1e-15);
   quiet.Read(21 * kMonitorStep, {1e-5});
   EXPECT_NEAR(quiet.Departure(0), 2e-5, 1e-15);  // the largest of the last three
-}
-
-// Weights reproduce every straight line and, with more planes than two, smooth by least squares.
-TEST(PlaneWeights, ReproduceStraightLines) {
-  const std::vector<double> planes = {-0.2, 0.05, 0.3};
-  for (const double z : {-0.2, 0.0, 0.4}) {
-    const std::vector<double> w = PlaneWeights(planes, z);
-    double one = 0, line = 0;
-    for (std::size_t k = 0; k < planes.size(); ++k) {
-      one += w[k];
-      line += w[k] * planes[k];
-    }
-    EXPECT_NEAR(one, 1, 1e-12);
-    EXPECT_NEAR(line, z, 1e-12);
-  }
-  const std::vector<double> same = PlaneWeights({0.1, 0.1}, 0.7);  // no line through one plane
-  EXPECT_DOUBLE_EQ(same[0], 0.5);
-  EXPECT_DOUBLE_EQ(same[1], 0.5);
 }
 
 }  // namespace

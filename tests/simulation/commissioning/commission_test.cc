@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fdd/detectors/commissioned_detector.h"
-#include "fdd/measurement/detection_feed.h"
+#include "fdd/commissioned/commissioned_detector.h"
+#include "fdd/detectors/detection_feed.h"
 #include "tests/effects/effect_rigs.h"
 #include "tests/fdd/commissioned_plant.h"
 
@@ -147,6 +147,13 @@ RigParameters WithRunOut() {
 }
 
 // Run-out of 20 um is 5 % of the gap and would be an error of 0.1 in the slopes.
+// Four samples a period leave no slope of a phase: nothing is learnt, and nothing must look as if.
+TEST(Commission, ARigWithTooFewSamplesIsRefused) {
+  RigParameters rig = ReferenceRig();
+  rig.amplifier.adc_samples_per_period = 4;
+  EXPECT_THROW(Commission(rig, {}), InputError);
+}
+
 TEST(Commission, RunOutOfThePositionSensorsIsLearnt) {
   const RigParameters rig = WithRunOut();
   const CommissionedModel model = Commission(rig, {}).model;

@@ -128,6 +128,29 @@ parameters = { fraction = 0.3 }
   EXPECT_EQ(worst, 0);
 }
 
+/// A fault from outside at the beginning of a period comes before the scenario's own fault at its end.
+TEST(SteppedRun, FaultsOfOnePeriodComeInTheOrderOfTime) {
+  const RigParameters rig = SteppedRig();
+  const std::string last = R"(
+[[fault]]
+time = 0.020035
+target = "B.coil3"
+kind = "open"
+)",
+                    first = R"(
+[[fault]]
+time = 0.02
+target = "A.coil3"
+kind = "open"
+)";
+  const RunResult run = Simulate(rig, SteppedScenario(rig, first + last), {});
+  SteppedRun stepped(rig, SteppedScenario(rig, last));
+  const double worst = LargestDifference(run.record, stepped, [&](long long n) {
+    if (n == 500) stepped.AddFault({0, "A.coil3", "open", {}, "test"});
+  });
+  EXPECT_EQ(worst, 0);
+}
+
 /// Angle and speed of a ramp given as speed and acceleration, over many changes.
 TEST(SteppedRun, SpeedAndAngleFollowTheGivenAcceleration) {
   const RigParameters rig = SteppedRig();

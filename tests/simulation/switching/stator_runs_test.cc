@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
 #include "tests/cli/cli_run.h"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the files of instruments that tests/core/formats read, from the published formats and not from the readers.
+"""Writes the files of instruments that tests/core/record/formats read, from the published formats and not from the readers.
 
     python3 make_instruments.py            # in this folder; needs numpy and scipy (scipy.io.savemat)
 

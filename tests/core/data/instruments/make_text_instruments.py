@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes lvm_*.lvm, uff_units.uff, uff_latin1.uff and uff_binary_double.uff, which tests/core/formats read.
+"""Writes lvm_*.lvm, uff_units.uff, uff_latin1.uff and uff_binary_double.uff, which tests/core/record/formats read.
 
     python3 make_text_instruments.py       # in this folder; needs nothing beside Python
 
