@@ -66,6 +66,7 @@ RecordComparison RecordBeside(const CaseModel& model, const std::vector<double>&
   out.data = record.data_file;
   out.scenario = record.scenario.name;
   out.validate = record.validate;
+  out.test = record.test;
   double sum = 0;
   for (const Target& t : model.targets()) {
     if (t.record != r) continue;

@@ -127,6 +127,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   DropNuisances(base, now);
   if (!ShapeExplainsAll() && FindWhatDiffers(base, now)) return;
   if (FindWrongData(base, now)) return;
+  out_.base = base.hypothesis;
   out_.final_fit = now;
   out_.final_ratio_fit = now.ratio_fit;
   out_.final_ratio_validate = now.ratio_validate;

@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "discovery/calibration/calibration.h"
+#include "discovery/case/test_records.h"
 #include "discovery/data/clock_shift.h"
 #include "discovery/data/input_size.h"
 #include "discovery/decision/explain.h"
 #include "discovery/decision/explainer.h"
+#include "discovery/decision/test_figures.h"
 
 namespace ambrig {
 
@@ -49,7 +51,9 @@ void Tell(const Case& c, const RecordsSetRight& all, Explanation& e) {
 
 }  // namespace
 
-Explanation Explain(const Case& c, const ExplainOptions& options) {
+Explanation Explain(const Case& whole, const ExplainOptions& options) {
+  const std::optional<Case> seen = WithoutTestRecords(whole);
+  const Case& c = seen ? *seen : whole;
   ExplainOptions now = options;
   RecordsSetRight all;
   Explanation e;
@@ -65,6 +69,7 @@ Explanation Explain(const Case& c, const ExplainOptions& options) {
     AddFound(found, all);
   }
   Tell(c, all, e);
+  AddTestFigures(whole, options, e);
   const CalibrationTable& table = StoredCalibration();
   if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
   return e;
