@@ -27,7 +27,7 @@ void UseFoundKinds(const Hypothesis& nominal, const NoiseFloor& floor, const Exp
 }
 
 /// rms over the floor; infinite where the rotor is lost.
-double ErrorOf(const CaseModel& model, const Hypothesis& h) {
+double TestErrorOf(const CaseModel& model, const Hypothesis& h) {
   const auto predicted = model.Predict(h);
   return predicted ? Ratio(model, Residual(model, *predicted), Which::kAll) : kInfinity;
 }
@@ -56,8 +56,8 @@ void AddTestFigures(const Case& c, const ExplainOptions& options, Explanation& e
       e.warnings.push_back("record of the test: " + FaultText(fault));
     model.branches = RowsIn(model, FindBranches(model, nominal));
     UseFoundKinds(nominal, floor, e, model);
-    e.closure.test_before = ErrorOf(model, before);
-    e.closure.test_after = ErrorOf(model, after);
+    e.closure.test_before = TestErrorOf(model, before);
+    e.closure.test_after = TestErrorOf(model, after);
   } catch (const InputError& error) {
     e.warnings.push_back(std::string("no figures of the test: ") + error.what());
   }

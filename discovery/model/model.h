@@ -55,6 +55,7 @@ struct Target {
   std::size_t first = 0, count = 0;     // rows in the flat vectors
   double floor = 1;                     // rms that noise alone makes
   double full_scale = 0;                // rms of the data about its mean
+  double independent = 0;  // numbers that a row of its record is worth, at most 1; 0: not known
 };
 
 /// How finely the current samples of a switching period are resolved. Differences between two coarse
@@ -72,6 +73,7 @@ class CaseModel {
  public:
   /// One row of `thin` takes part (at alternating phases, so that nothing periodic hides); 1: all.
   explicit CaseModel(const Case& c, std::size_t thin = 1);
+  CaseModel(const Case& c, const std::vector<std::size_t>& thin);  // of each record
 
   const Case& data() const { return case_; }
   const std::vector<Target>& targets() const { return targets_; }
