@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/errors.h"
 #include "tests/discovery/bench_case.h"
 
 namespace ambrig {
@@ -69,9 +70,9 @@ TEST_F(TestRecords, WhereNoneCanBeSparedANoteSaysSo) {
 
 TEST_F(TestRecords, ARecordThatWasChosenByTestsNothing) {
   const std::string record = "[[record]]\nscenario = \"held.toml\"\ndata = \"log-0.csv\"\nuse = ";
-  EXPECT_THAT(
-      ErrorText([&] { CaseOf(folder_, record + "\"validate\"\n" + record + "\"test\"\n"); }),
-      HasSubstr("is validated and a test, allowed: a record that the search does not see"));
+  EXPECT_THAT(ErrorText<InputError>(
+                  [&] { CaseOf(folder_, record + "\"validate\"\n" + record + "\"test\"\n"); }),
+              HasSubstr("is validated and a test, allowed: a record that the search does not see"));
 }
 
 }  // namespace
