@@ -69,7 +69,11 @@ double IndependentNumbers(const CaseModel& model, const std::vector<const Target
   for (const Target* t : of) rms.push_back(Rms(noise, t->first, t->count));
   InParallel(of.size(), [&](std::size_t a) {
     const Target& t = *of[a];
-    independent[a] = static_cast<double>(t.count) / RowsPerIndependentOne(noise, t.first, t.count);
+    const CaseRecord& record = model.data().records[t.record];
+    independent[a] =
+        static_cast<double>(t.count) /
+        std::max(RowsPerIndependentOne(noise, t.first, t.count),
+                 model.noise_model.RowsPerNumber(record.data.channels[t.channel].name));
     square[a] = SumOfSquaredCorrelations(noise, of, rms, a);
   });
   const double per_channel = std::accumulate(independent.begin(), independent.end(), 0.0) /
