@@ -18,7 +18,9 @@ namespace ambrig {
 
 namespace {
 
-constexpr long kMostRows = 4;  // by which a clock may be off; more is a matter of the data gate
+// By which a clock may be off [rows], [s]: whichever is more. A larger shift is a matter of the data gate.
+constexpr long kMostRows = 4;
+constexpr double kMostLate = 5e-4;
 // Of what the nuisances explain, for one effect in their place: its law may have another form. Of fewer amounts that much
 // may follow a law by chance (eight: F = 63 on 1 and 7 degrees of freedom, p = 1e-4).
 constexpr double kMostOfNuisances = 0.9;
@@ -197,7 +199,8 @@ bool Explainer::FindLateRows(const FitResult& base) {
       const CaseRecord& record = full_.data().records[r];
       if (record.data_file != f.record) continue;
       const long late = std::lround(f.value * record.data.rate);
-      rows[r] = std::abs(late) <= kMostRows ? static_cast<int>(late) : 0;
+      const long most = std::max(kMostRows, std::lround(kMostLate * record.data.rate));
+      rows[r] = std::abs(late) <= most ? static_cast<int>(late) : 0;
       some = some || rows[r] != 0;
       all = all && rows[r] == rows[0];
     }
