@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "discovery/data/lonely_rows.h"
+#include "discovery/data/start_current.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
@@ -61,6 +62,8 @@ std::vector<std::string> Explainer::PrepareNoise(const Hypothesis& nominal) {
   const NoiseFloor floor = FindFloor(full_, nominal);
   model_.LeaveOut(floor.unpredictable);
   out_.effective_sample_size = floor.effective_sample_size;
+  const std::vector<UnstatedStart> starts = UnstatedStartsOf(full_, floor.clean);
+  for (CaseModel* model : {&full_, &model_}) model->LeaveOut(SpansOf(full_, starts));
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
   const std::vector<LonelyRow> lonely = LonelyRowsOf(full_, floor.clean);
@@ -70,7 +73,9 @@ std::vector<std::string> Explainer::PrepareNoise(const Hypothesis& nominal) {
   PassFloorsOn(full_, model_);
   branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);
-  return LonelyRemarks(full_.data(), lonely);
+  std::vector<std::string> remarks = LonelyRemarks(full_.data(), lonely);
+  for (const std::string& line : StartRemarks(full_.data(), starts)) remarks.push_back(line);
+  return remarks;
 }
 
 /// The nuisances that the case declares, or those that usually are.
