@@ -10,12 +10,17 @@ struct FilteredNoise {
   double rows_per_number = 1;  // rows that are worth one independent number
 };
 
-/// `stretches`: of equal length, a power of two, measured minus predicted; `white`: rms of the white noise in them.
+/// A stretch of rows that follow each other.
+struct ErrorStretch {
+  std::vector<double> error, predicted;  // measured minus predicted; what was predicted
+};
+
+/// `stretches`: of equal length, a power of two; `white`: rms of the white noise in them.
 /// Noise has the same density in every stretch, what a model lacks is where the rig is driven: of each octave the
 /// density that a quarter of the stretches stay below counts, corrected for its scatter, where the middle half of them
-/// agrees; elsewhere the white noise. Lines spoil one octave of few stretches. No stretches: the white noise.
+/// agrees and the error is not coherent with the prediction; elsewhere the white noise. Lines spoil one octave of few stretches. No stretches: the white noise.
 /// Source: P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967); quantiles of chi-squared numbers: E. B. Wilson,
 /// M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931).
-FilteredNoise NoiseOfStretches(const std::vector<std::vector<double>>& stretches, double white);
+FilteredNoise NoiseOfStretches(const std::vector<ErrorStretch>& stretches, double white);
 
 }  // namespace ambrig

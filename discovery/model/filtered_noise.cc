@@ -24,7 +24,7 @@ bool HasOwnNoise(const CaseRecord& record, const std::string& channel) {
 
 /// Stretches of `length` rows all of which count, one behind the other.
 void AddStretches(const CaseModel& model, const Target& t, const std::vector<double>& predicted,
-                  std::size_t length, std::vector<std::vector<double>>& out) {
+                  std::size_t length, std::vector<ErrorStretch>& out) {
   for (std::size_t first = t.first; first + length <= t.first + t.count;) {
     std::size_t bad = length;
     while (bad > 0 && model.ok()[first + bad - 1]) --bad;
@@ -33,17 +33,18 @@ void AddStretches(const CaseModel& model, const Target& t, const std::vector<dou
       continue;
     }
     out.emplace_back();
-    for (std::size_t k = first; k < first + length; ++k)
-      out.back().push_back(model.measured()[k] - predicted[k]);
+    for (std::size_t k = first; k < first + length; ++k) {
+      out.back().error.push_back(model.measured()[k] - predicted[k]);
+      out.back().predicted.push_back(predicted[k]);
+    }
     first += length;
   }
 }
 
-std::vector<std::vector<double>> StretchesOf(const CaseModel& model,
-                                             const std::vector<const Target*>& of,
-                                             const std::vector<double>& predicted) {
+std::vector<ErrorStretch> StretchesOf(const CaseModel& model, const std::vector<const Target*>& of,
+                                      const std::vector<double>& predicted) {
   for (const std::size_t length : kStretchLengths) {
-    std::vector<std::vector<double>> out;
+    std::vector<ErrorStretch> out;
     for (const Target* t : of) AddStretches(model, *t, predicted, length, out);
     if (out.size() >= kLeastStretches) return out;
   }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kRowsOfStretch = 1024;
 
 /// White noise of rms 1 behind two equal low-passes (share of a row's difference that is followed), which leave it `rms`.
-std::vector<std::vector<double>> NoiseInStretches(std::size_t count, double follow, double rms) {
+std::vector<ErrorStretch> NoiseInStretches(std::size_t count, double follow, double rms) {
   std::vector<double> all;
   double a = 0, b = 0, square = 0;
   for (std::size_t k = 0; k < count * kRowsOfStretch; ++k) {
@@ -23,8 +23,11 @@ std::vector<std::vector<double>> NoiseInStretches(std::size_t count, double foll
     square += b * b;
   }
   const double scale = rms / std::sqrt(square / static_cast<double>(all.size()));
-  std::vector<std::vector<double>> out(count);
-  for (std::size_t k = 0; k < all.size(); ++k) out[k / kRowsOfStretch].push_back(scale * all[k]);
+  std::vector<ErrorStretch> out(count);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    out[k / kRowsOfStretch].error.push_back(scale * all[k]);
+    out[k / kRowsOfStretch].predicted.push_back(Normal(6, 2, k));
+  }
   return out;
 }
 
@@ -47,8 +50,20 @@ TEST(NoiseSpectrum, WhatComesAndGoesIsNone) {
   auto stretches = NoiseInStretches(12, 1, 0.05);
   const auto error = NoiseInStretches(12, 0.05, 1);
   for (std::size_t s = 0; s < stretches.size(); s += 2)
-    for (std::size_t k = 0; k < kRowsOfStretch; ++k) stretches[s][k] += error[s][k];
+    for (std::size_t k = 0; k < kRowsOfStretch; ++k) stretches[s].error[k] += error[s].error[k];
   EXPECT_NEAR(NoiseOfStretches(stretches, 0.05).rms, 0.05, 0.01);
+}
+
+// An error that follows the prediction is the model's, though it is alike in all stretches.
+TEST(NoiseSpectrum, WhatFollowsThePredictionIsNone) {
+  auto stretches = NoiseInStretches(12, 1, 0.05);
+  const auto signal = NoiseInStretches(12, 0.2, 1);
+  for (std::size_t s = 0; s < stretches.size(); ++s) {
+    stretches[s].predicted = signal[s].error;
+    for (std::size_t k = 0; k < kRowsOfStretch; ++k)
+      stretches[s].error[k] += 0.3 * signal[s].error[k];
+  }
+  EXPECT_LT(NoiseOfStretches(stretches, 0.05).rms, 0.08);
 }
 
 TEST(NoiseSpectrum, WithoutStretchesTheNoiseIsWhite) {
