@@ -18,6 +18,7 @@
 #include "app/text/screen.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "discovery/case/test_records.h"
 #include "discovery/explain/explain.h"
 #include "effects/effect.h"
 
@@ -167,6 +168,13 @@ void PrintExplanation(const Explanation& e, bool unseen) {
   fmt::print("{} in {:.1f} s\n", Counted(e.runs, "record simulation"), e.seconds);
 }
 
+void PrintTest(const Case& c, const Explanation& e) {
+  if (std::ranges::none_of(c.records, &CaseRecord::test) || std::isnan(e.closure.test_after))
+    return;
+  fmt::print("records of the test, which nothing was chosen by: {:.3f} -> {:.3f}\n",
+             e.closure.test_before, e.closure.test_after);
+}
+
 /// The part of the work that a progress text belongs to, for --events.
 std::string_view StageOf(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kStages[] = {
@@ -215,8 +223,8 @@ int RunExplain(const ExplainCommand& o) {
       };
     e = Explain(c, options);
   }
-  PrintExplanation(e, std::any_of(c.records.begin(), c.records.end(),
-                                  [](const CaseRecord& r) { return r.validate; }));
+  PrintExplanation(e, AnyValidates(c));
+  PrintTest(c, e);
   PrintNextCommand(e, o.file);
   o.common.WriteJson(ExplainJson(e));
   if (!o.common.html.empty()) WriteExplainReport(c, e, o.common.html);

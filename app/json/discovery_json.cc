@@ -136,7 +136,9 @@ Json CompareJson(const Comparison& c) {
     for (const auto& [block, ratio] : r.blocks) blocks[block] = Number(ratio);
     records.push_back({{"data", r.data},
                        {"scenario", r.scenario},
-                       {"use", r.validate ? "validate" : "fit"},
+                       {"use", r.test       ? "test"
+                               : r.validate ? "validate"
+                                            : "fit"},
                        {"ratio", Number(r.ratio)},
                        {"channels", channels},
                        {"blocks", blocks}});

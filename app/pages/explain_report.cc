@@ -9,6 +9,7 @@
 #include "app/pages/explain_tables.h"
 #include "app/pages/nuisance_tables.h"
 #include "app/text/format.h"
+#include "discovery/case/test_records.h"
 #include "effects/effect.h"
 
 namespace ambrig {
@@ -253,7 +254,7 @@ void AddWarnings(HtmlReport& report, const Explanation& e) {
 void WriteExplainReport(const Case& c, const Explanation& e, const std::string& path) {
   const ExplainScene scene(c, e);
   HtmlReport report("Which effect is missing?", c.file);
-  const bool unseen = std::ranges::any_of(c.records, &CaseRecord::validate);
+  const bool unseen = AnyValidates(c);
   AddExplanationVerdict(report, e, unseen);
   AddMeaning(report, c, e);
   report.Heading("Error after each step");

@@ -65,15 +65,19 @@ double PositiveNumber(const TomlTable& t, const std::string& key) {
   return v;
 }
 
-/// A record that is fitted says nothing when it validates.
+const char* UsedAs(const CaseRecord& r) {
+  return r.test ? "a test" : r.validate ? "validated" : "fitted";
+}
+
+/// A record that is fitted says nothing when it validates, and one that was chosen by nothing when it tests.
 void RejectReused(const Case& c, const CaseRecord& r, const TomlTable& t) {
   std::error_code ignored;
   for (const CaseRecord& other : c.records)
-    if (other.validate != r.validate &&
+    if ((other.validate != r.validate || other.test != r.test) &&
         std::filesystem::equivalent(other.data_file, r.data_file, ignored))
-      t.Fail("data", fmt::format("= {} is fitted and validated, allowed: a record that the fit "
-                                 "does not see",
-                                 r.data_file));
+      t.Fail("data", fmt::format("= {} is {} and {}, allowed: a record that the {} does not see",
+                                 r.data_file, UsedAs(other), UsedAs(r),
+                                 other.validate && r.validate ? "search" : "fit"));
 }
 
 /// Positions that drive the gaps must be there, of every axis of a bearing that the record knows.
@@ -159,7 +163,9 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
                           Case& c) {
   CaseRecord r;
   r.data_file = ExistingFile(t, "data");
-  r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
+  const std::string use = t.Choice("use", "fit", "fit, validate, test");
+  r.validate = use != "fit";
+  r.test = use == "test";
   if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time") {
     if (kind == "frf")
       ReadResponseRecord(t, c, r);
@@ -218,27 +224,32 @@ std::tuple<RecordKind, StartState, Imposed, bool, bool> SortOf(const CaseRecord&
 }
 
 /// Without any record marked "validate" every third one is kept back for that, but none that the fits cannot do
-/// without: of its sort another one must be left to them.
+/// without: of its sort another one must be left to them. Records of the test are no part of this.
 void ReserveForValidation(Case& c) {
   const bool any =
-      std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
-  if (any || c.records.size() <= 2) return;
+      std::ranges::any_of(c.records, [](const CaseRecord& r) { return r.validate && !r.test; });
+  const auto records = static_cast<std::size_t>(
+      std::ranges::count_if(c.records, [](const CaseRecord& r) { return !r.test; }));
+  if (any || (records <= 2 && records == c.records.size())) return;
   std::map<decltype(SortOf(c.records[0])), int> left;
-  for (const CaseRecord& r : c.records) ++left[SortOf(r)];
+  for (const CaseRecord& r : c.records)
+    if (!r.test) ++left[SortOf(r)];
   std::size_t since = 0, reserved = 0;
   for (CaseRecord& r : c.records) {
-    if (++since < 3 || left[SortOf(r)] < 2) continue;
+    if (r.test || ++since < 3 || left[SortOf(r)] < 2) continue;
     --left[SortOf(r)];
     r.validate = true;
     since = 0;
     ++reserved;
   }
+  const std::string beside = records < c.records.size() ? " beside the records of the test" : "";
   c.notes.push_back(reserved > 0
                         ? fmt::format("no record is marked \"validate\": {} of {} are reserved for "
-                                      "validation",
-                                      reserved, c.records.size())
+                                      "validation{}",
+                                      reserved, records, beside)
                         : "no record is marked \"validate\" and none can be spared: what fits is "
-                          "not validated");
+                          "not validated" +
+                              beside);
 }
 
 Case CaseOfTable(const TomlTable& root, const std::string& file) {

@@ -33,6 +33,7 @@ struct CaseRecord {
   ResponseTable responses;  // of kind kFrf, as measured
   StaticTable table;        // of kind kStatic, as measured
   bool validate = false;    // kept from the fits; "test" records are too
+  bool test = false;        // also kept from every choice of a search (test_records.h)
   Imposed imposed = Imposed::kNothing;
   double observer = 20;  // [Hz] with imposed currents: how fast the rotor follows the measured one
   std::vector<ChannelQuality> quality;  // one per channel of data

@@ -56,6 +56,16 @@ bool LosesRows(const std::vector<GateColumn>& columns, const GateColumn& c, cons
          OthersOf(columns, c).error < kOfOthers * c.match.error;
 }
 
+constexpr double kErrsPlainly = 2,
+                 kNothingLeft =
+                     1.15;  // floors before a shift and after it, where the error is not gross
+
+/// Whether a column may be late and nothing else: it errs plainly, all others of its bearing do not. No effect delays what
+/// one column logs alone, so that its error need not be gross.
+bool ErrsAlone(const std::vector<GateColumn>& columns, const GateColumn& c) {
+  return c.match.error > kErrsPlainly && OthersOf(columns, c).error < kNothingLeft;
+}
+
 }  // namespace
 
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
@@ -69,11 +79,15 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
   }
   std::vector<std::pair<GateColumn*, FoundShift>> late;
   for (GateColumn& c : columns) {
-    if (c.explained || c.match.predicted_move < kMoves || c.match.error < kGrossError ||
-        c.match.error < 0.1 * c.match.predicted_move)
-      continue;
+    if (c.explained || c.match.predicted_move < kMoves) continue;
+    const bool gross =
+        c.match.error >= kGrossError && c.match.error >= 0.1 * c.match.predicted_move;
+    if (!gross && !ErrsAlone(columns, c)) continue;
     const FoundShift s = ShiftOf({&c}, r.data.rate);
-    const double least = IsOfKind(c.name, ChannelKind::kLoadCell) ? kLeastForce : kLeastColumn;
+    if (!gross && !(s.all_rows && s.left * c.match.error < kNothingLeft)) continue;
+    const double least = IsOfKind(c.name, ChannelKind::kLoadCell) ? kLeastForce
+                         : gross                                  ? kLeastColumn
+                                                                  : kLeastShift;
     if (s.all_rows ? std::abs(s.late) >= least && s.left < 0.3 : LosesRows(columns, c, s))
       late.emplace_back(&c, s);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "discovery/data_gate/lonely_rows.h"
+#include "discovery/data_gate/start_current.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/screen.h"
 
@@ -66,6 +67,7 @@ RecordComparison RecordBeside(const CaseModel& model, const std::vector<double>&
   out.data = record.data_file;
   out.scenario = record.scenario.name;
   out.validate = record.validate;
+  out.test = record.test;
   double sum = 0;
   for (const Target& t : model.targets()) {
     if (t.record != r) continue;
@@ -96,6 +98,10 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   c.noise = EstimateNoise(model, h);
   model.noise_model = c.noise;
   const NoiseFloor floor = FindFloor(model, h);
+  const std::vector<UnstatedStart> starts = UnstatedStartsOf(model, floor.clean);
+  const std::vector<SampleSpan> begun = SpansOf(model, starts);
+  model.LeaveOut(begun);
+  c.unpredictable.insert(c.unpredictable.end(), begun.begin(), begun.end());
   c.data = InspectDataBelow(model, floor.clean, h, stated);
   const std::vector<LonelyRow> lonely = LonelyRowsOf(model, floor.clean);
   const std::vector<SampleSpan> alone = SpansOf(lonely);
@@ -123,6 +129,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   }
   for (const DataFault& f : c.data) c.words.push_back("data: " + FaultText(f));
   for (const std::string& line : LonelyRemarks(model.data(), lonely)) c.words.push_back(line);
+  for (const std::string& line : StartRemarks(model.data(), starts)) c.words.push_back(line);
   for (const std::string& line : NoiseRemarks(c.noise)) c.words.push_back(line);
   for (const std::string& line : Words(c)) c.words.push_back(line);
   return c;

@@ -21,7 +21,7 @@ struct ChannelError {
 
 struct RecordComparison {
   std::string data, scenario;
-  bool validate = false;
+  bool validate = false, test = false;  // as CaseRecord
   std::vector<ChannelError> channels;
   BlockErrors blocks;
   double ratio = 0;  // [-] rms over the floor, all channels; nan: nothing counts

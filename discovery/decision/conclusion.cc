@@ -67,10 +67,21 @@ bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
   return false;
 }
 
-/// A law whose size came out with a sign that its physics cannot have, and which leaves more than noise: another force
-/// acts in that direction (a pull that holds the shaft back is a spring or a rub, no motor).
-bool IsOfAnotherPhysics(const EffectInstance& e, const StageRatios& end) {
-  return HasImpossibleSign(e) && end.Answered() > kNoiseLeft;
+/// A law whose size came out with a sign that its usual physics does not have, and which leaves much: another force
+/// acts in that direction (a rub holds the shaft back at one place). Where it explains nearly all, the law is right and
+/// its sign says of what it is.
+bool IsOfAnotherPhysics(const EffectInstance& e, const StageRatios& end, double explained) {
+  constexpr double kNearlyAll = 0.9;  // of the squared error above the noise
+  return HasImpossibleSign(e) && end.Answered() > kNoiseLeft && explained < kNearlyAll;
+}
+
+void SaySigns(const std::vector<EffectInstance>& adopted, std::vector<std::string>& warnings) {
+  for (const EffectInstance& e : adopted)
+    if (HasImpossibleSign(e))
+      warnings.push_back(
+          NameAtTarget(e.name, e.target) +
+          " has the opposite sign of what usually causes it: it holds the shaft back, as a "
+          "spring, a bellows or a passive magnet does");
 }
 
 std::string SaidOfUnits(double left, const UnitErrors& of_units) {
@@ -130,7 +141,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
   const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named) &&
-                           !IsOfAnotherPhysics(out.adopted[0], end);
+                           !IsOfAnotherPhysics(out.adopted[0], end, explained);
   if (any && !established) {
     out.adopted.clear();
     out.shaped.reset();
@@ -144,7 +155,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   if (within_units && out.verdict == ExplanationVerdict::kUnknown)
     out.verdict = ExplanationVerdict::kParameters;
   if (established)
-    SetsWith(out, named);
+    SetsWith(out, named), SaySigns(out.adopted, out.warnings);
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);

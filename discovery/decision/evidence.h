@@ -23,7 +23,8 @@ struct SetMember {
 struct Closure {
   double explained = 0;                        // share of the squared error above the floor
   double floors_before = 0, floors_after = 0;  // rms over the noise floor, all records
-  double test_before = 0, test_after = 0;      // of the records that were not fitted; nan: none
+  // of the records of the test, else of those that were not fitted; nan: none
+  double test_before = 0, test_after = 0;
 };
 
 struct RemainderPlace {

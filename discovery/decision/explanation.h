@@ -61,6 +61,7 @@ struct Explanation {
   Unexplained unexplained;
   std::vector<Candidate> screened;  // of the first round
   std::vector<std::string> warnings;
+  Hypothesis base;  // the rig parameters fitted without what was found
   FitResult final_fit;
   double effective_sample_size = 0, seconds = 0;  // independent residuals [-], computing [s]
   long runs = 0;                                  // record simulations

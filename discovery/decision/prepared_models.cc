@@ -10,16 +10,41 @@
 
 namespace ambrig {
 
-std::size_t ThinningTo(const Case& c, std::size_t rows) {
+std::vector<std::size_t> ThinningTo(const Case& c, std::size_t rows) {
+  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kPart = 4;  // of the mean: what a short record has, as far as it goes
+  std::vector<std::size_t> of_record;
   std::size_t all = 0;
-  for (const CaseRecord& r : c.records)
-    for (const Channel& channel : r.data.channels) all += channel.samples.size();
-  return std::clamp<std::size_t>(all / rows, 1, 12);
+  for (const CaseRecord& r : c.records) {
+    of_record.push_back(0);
+    for (const Channel& channel : r.data.channels) of_record.back() += channel.samples.size();
+    all += of_record.back();
+  }
+  const std::size_t uniform = std::max<std::size_t>(1, all / rows),
+                    least = all / uniform / c.records.size() / kPart;
+  std::vector<std::size_t> thin;
+  bool any_short = false;
+  for (std::size_t r = 0; r < of_record.size(); ++r) {
+    const bool is_short = OverTime(c.records[r]) && of_record[r] / uniform < least;
+    any_short = any_short || (is_short && uniform > 1);
+    thin.push_back(is_short ? std::clamp<std::size_t>(
+                                  of_record[r] / std::max<std::size_t>(least, 1), 1, uniform)
+                            : uniform);
+  }
+  if (!any_short)
+    for (std::size_t& every : thin) every = std::min(every, kMost);
+  return thin;
 }
 
 void PassFloorsOn(const CaseModel& full, CaseModel& thin) {
-  for (std::size_t t = 0; t < full.targets().size(); ++t)
-    thin.targets()[t].floor = full.targets()[t].floor;
+  for (std::size_t n = 0; n < full.targets().size(); ++n) {
+    const Target& from = full.targets()[n];
+    Target& to = thin.targets()[n];
+    to.floor = from.floor;
+    // fewer rows are less alike: together they are worth what all are, if as many as that are left
+    to.independent = std::min(1.0, from.independent * static_cast<double>(from.count) /
+                                       static_cast<double>(std::max<std::size_t>(1, to.count)));
+  }
 }
 
 void UseNuisancesInBoth(CaseModel& full, CaseModel& thin,

@@ -7,10 +7,13 @@ namespace ambrig {
 /// Rows that a search looks at: more would cost time and tell nothing new.
 inline constexpr std::size_t kSearchRows = 150000;
 
-/// The thinning (1: every row) with which a model of the case looks at no more than about `rows` rows, at most 12.
-std::size_t ThinningTo(const Case& c, std::size_t rows);
+/// The thinning of each record (1: every row) with which a model of the case looks at about `rows` rows. It is the same
+/// in all, and at most 12; but a record over time that would have less than a quarter of the mean is thinned less, and
+/// the longer ones beside it as much as it takes: what a law leaves is alike over a whole record, so that a record
+/// is not worth as many times more as it is longer.
+std::vector<std::size_t> ThinningTo(const Case& c, std::size_t rows);
 
-/// The floors of `full` in the model of fewer rows.
+/// The floors of `full` in the model of fewer rows, and what these are worth.
 void PassFloorsOn(const CaseModel& full, CaseModel& thin);
 
 /// Nuisances of the records, of all rows, in both; errors of the coils, of the rows of `thin`, in that one alone: forty columns of

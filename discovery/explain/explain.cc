@@ -3,12 +3,16 @@
 #include <optional>
 
 #include "discovery/calibration/calibration.h"
+#include "discovery/case/test_records.h"
 #include "discovery/explain/explanation_search.h"
 #include "discovery/explain/record_corrections.h"
+#include "discovery/explain/test_figures.h"
 
 namespace ambrig {
 
-Explanation Explain(const Case& c, const ExplainOptions& options) {
+Explanation Explain(const Case& whole, const ExplainOptions& options) {
+  const std::optional<Case> seen = WithoutTestRecords(whole);
+  const Case& c = seen ? *seen : whole;
   ExplainOptions now = options;
   RecordCorrections all;
   Explanation e;
@@ -24,6 +28,7 @@ Explanation Explain(const Case& c, const ExplainOptions& options) {
     all.Add(found);
   }
   ReportCorrections(c, all, e);
+  AddTestFigures(whole, options, e);
   const CalibrationTable& table = StoredCalibration();
   if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
   return e;

@@ -49,6 +49,7 @@ Explanation ExplanationReport::Final(const FitResult& as_filed, const FitResult&
   out.adopted = adopted_.all();
   out.shaped = adopted_.shaped;
   names_.MoveTo(out);
+  out.base = base.hypothesis;
   out.final_fit = now;
   out.final_ratio_fit = now.ratio_fit;
   out.final_ratio_validate = now.ratio_validate;

@@ -67,10 +67,12 @@ Explanation ExplanationSearch::Run() {
 std::vector<std::string> ExplanationSearch::Prepare(const Hypothesis& nominal) {
   std::vector<std::string> remarks = models_.LimitToHeld(nominal);
   const SearchModels::FoundNoise noise = models_.FindNoise(nominal);
+  const std::vector<std::string> starts = models_.PassOverUnstatedStarts(noise.clean);
   progress_(0.02, "are the data possible?");
   report_.NoteData(models_.InspectData(nominal, noise));
   const std::vector<std::string> lonely = models_.PassOverLonely(noise.clean);
   remarks.insert(remarks.end(), lonely.begin(), lonely.end());
+  remarks.insert(remarks.end(), starts.begin(), starts.end());
   if (report_.data().empty()) RequireCountedRows(models_.full());
   models_.UseFloors(nominal);
   nuisances_.UseDeclared(nominal, noise.clean);

@@ -14,7 +14,10 @@ namespace ambrig {
 
 namespace {
 
-constexpr long kMostRows = 4;  // by which a clock may be off; more is a matter of the data gate
+// By which a clock may be off [rows], [s], whichever is more; a larger shift is a matter of the
+// data gate.
+constexpr long kMostRows = 4;
+constexpr double kMostLate = 5e-4;
 
 }  // namespace
 
@@ -60,7 +63,8 @@ std::optional<std::vector<int>> LateRows(const Case& c, const std::vector<Nuisan
       const CaseRecord& record = c.records[r];
       if (record.data_file != f.record) continue;
       const long late = std::lround(f.value * record.data.rate);
-      rows[r] = std::abs(late) <= kMostRows ? static_cast<int>(late) : 0;
+      const long most = std::max(kMostRows, std::lround(kMostLate * record.data.rate));
+      rows[r] = std::abs(late) <= most ? static_cast<int>(late) : 0;
       some = some || rows[r] != 0;
       all = all && rows[r] == rows[0];
     }

@@ -4,6 +4,7 @@
 
 #include "core/base/errors.h"
 #include "discovery/data_gate/lonely_rows.h"
+#include "discovery/data_gate/start_current.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/candidate_fit.h"
@@ -34,6 +35,12 @@ SearchModels::FoundNoise SearchModels::FindNoise(const Hypothesis& nominal) {
   effective_sample_size_ = floor.effective_sample_size;
   found.clean = std::move(floor.clean);
   return found;
+}
+
+std::vector<std::string> SearchModels::PassOverUnstatedStarts(const std::vector<double>& clean) {
+  const std::vector<UnstatedStart> starts = UnstatedStartsOf(full_, clean);
+  LeaveOut(SpansOf(full_, starts));
+  return StartRemarks(data(), starts);
 }
 
 std::vector<DataFault> SearchModels::InspectData(const Hypothesis& nominal,

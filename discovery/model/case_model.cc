@@ -22,6 +22,9 @@ constexpr double kCoarseSamples = 6;   // of the current, in a switching period
 }  // namespace
 
 CaseModel::CaseModel(const Case& c, std::size_t thin)
+    : CaseModel(c, std::vector<std::size_t>(c.records.size(), thin)) {}
+
+CaseModel::CaseModel(const Case& c, const std::vector<std::size_t>& thin)
     : noise_model(StatedNoise(c.rig, c.noise)), case_(c) {
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const CaseRecord& record = c.records[r];
@@ -38,7 +41,7 @@ CaseModel::CaseModel(const Case& c, std::size_t thin)
       t.channel = ch;
       t.first = measured_.size();
       double mean = 0, square = 0, n = 0;
-      const std::size_t every = points ? 1 : thin;
+      const std::size_t every = points ? 1 : thin[r];
       for (std::size_t block = 0; block * every < channel.samples.size(); ++block) {
         const std::size_t k = block * every + block % every;
         if (k >= channel.samples.size()) break;

@@ -28,6 +28,7 @@ class CaseModel {
  public:
   /// One row of `thin` takes part (at alternating phases, so that nothing periodic hides); 1: all.
   explicit CaseModel(const Case& c, std::size_t thin = 1);
+  CaseModel(const Case& c, const std::vector<std::size_t>& thin);  // of each record
 
   const Case& data() const { return case_; }
   const std::vector<Target>& targets() const { return targets_; }

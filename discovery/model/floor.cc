@@ -8,6 +8,7 @@
 #include "core/record/channels.h"
 #include "discovery/model/in_parallel.h"
 #include "discovery/model/point_floor.h"
+#include "discovery/model/residual.h"
 
 namespace ambrig {
 
@@ -56,37 +57,46 @@ double SumOfSquaredCorrelations(const std::vector<double>& noise,
   return sum;
 }
 
-/// Independent rows times independent channels: the latter from the spread of their correlations.
-/// `noise`: of one noisy run.
-double IndependentRows(const CaseModel& model, const std::vector<double>& noise) {
-  double rows_effective = 0;
+/// Independent rows times independent channels of one record: the latter from the spread of their correlations.
+/// `of`: its targets; `noise`: of one noisy run.
+double IndependentNumbers(const CaseModel& model, const std::vector<const Target*>& of,
+                          const std::vector<double>& noise) {
+  if (!OverTime(model.data().records[of[0]->record]))  // every point was measured by itself
+    return std::accumulate(of.begin(), of.end(), 0.0, [&](double sum, const Target* t) {
+      return sum + CountedRows(model, *t);
+    });
+  std::vector<double> rms, independent(of.size()), square(of.size());
+  for (const Target* t : of) rms.push_back(Rms(noise, t->first, t->count));
+  InParallel(of.size(), [&](std::size_t a) {
+    const Target& t = *of[a];
+    const CaseRecord& record = model.data().records[t.record];
+    independent[a] =
+        static_cast<double>(t.count) /
+        std::max(RowsPerIndependentOne(noise, t.first, t.count),
+                 model.noise_model.RowsPerNumber(record.data.channels[t.channel].name));
+    square[a] = SumOfSquaredCorrelations(noise, of, rms, a);
+  });
+  const double per_channel = std::accumulate(independent.begin(), independent.end(), 0.0) /
+                             static_cast<double>(of.size()),
+               spread = std::accumulate(square.begin(), square.end(), 0.0);
+  return per_channel * static_cast<double>(of.size() * of.size()) / spread;
+}
+
+/// Of all records; each target learns what a row of its record is worth.
+double IndependentRows(CaseModel& model, const std::vector<double>& noise) {
+  double all = 0;
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
     std::vector<const Target*> of;
+    double rows = 0;
     for (const Target& t : model.targets())
-      if (t.record == r) of.push_back(&t);
+      if (t.record == r) of.push_back(&t), rows += static_cast<double>(t.count);
     if (of.empty()) continue;
-    if (!OverTime(model.data().records[r])) {  // every point was measured by itself
-      for (const Target* t : of)
-        rows_effective += static_cast<double>(
-            std::count_if(model.ok().begin() + static_cast<std::ptrdiff_t>(t->first),
-                          model.ok().begin() + static_cast<std::ptrdiff_t>(t->first + t->count),
-                          [](char ok) { return ok != 0; }));
-      continue;
-    }
-    std::vector<double> rms, independent(of.size()), square(of.size());
-    for (const Target* t : of) rms.push_back(Rms(noise, t->first, t->count));
-    InParallel(of.size(), [&](std::size_t a) {
-      const Target& t = *of[a];
-      independent[a] =
-          static_cast<double>(t.count) / RowsPerIndependentOne(noise, t.first, t.count);
-      square[a] = SumOfSquaredCorrelations(noise, of, rms, a);
-    });
-    const double per_channel = std::accumulate(independent.begin(), independent.end(), 0.0) /
-                               static_cast<double>(of.size()),
-                 spread = std::accumulate(square.begin(), square.end(), 0.0);
-    rows_effective += per_channel * static_cast<double>(of.size() * of.size()) / spread;
+    const double numbers = IndependentNumbers(model, of, noise);
+    all += numbers;
+    for (Target& t : model.targets())
+      if (t.record == r) t.independent = std::min(1.0, numbers / rows);
   }
-  return rows_effective;
+  return all;
 }
 
 }  // namespace

@@ -80,6 +80,15 @@ void LinearResponses::Levitate(double speed) {
   stable_ = IsStable(transfer_->eigenvalues().cwiseAbs().maxCoeff());
 }
 
+double LinearResponses::SlowestDecay() const {
+  constexpr double kStands = 1e-7;  // of a period: a state that nothing moves
+  double slowest = 0;
+  if (transfer_)
+    for (const double size : transfer_->eigenvalues().cwiseAbs())
+      if (size < 1 - kStands) slowest = std::max(slowest, size);
+  return slowest > 0 ? -loop_->Ts() / std::log(slowest) : 0;
+}
+
 void LinearResponses::Hold(const RigParameters& drawing, const Scenario& scenario) {
   OperatingPoint& point = *point_;
   const HeldCommands commands = CommandsAtStart(drawing, scenario);

@@ -32,6 +32,8 @@ class LinearResponses {
   ~LinearResponses();
 
   bool stable() const { return stable_; }
+  /// In which the slowest mode of a levitated rotor's loop falls to 1/e [s]; 0: held, or none falls.
+  double SlowestDecay() const;
   /// At f [Hz], for every response in order.
   std::vector<std::complex<double>> At(double f, const std::vector<RigResponse>& responses) const;
   /// The operating point itself.

@@ -11,6 +11,7 @@
 #include "discovery/data/held_values.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/model/case_model.h"
+#include "discovery/model/filtered_noise.h"
 
 namespace ambrig {
 
@@ -212,6 +213,11 @@ double NoiseModel::Used(const std::string& channel) const {
   return it == channels.end() ? std::numeric_limits<double>::quiet_NaN() : it->second.used;
 }
 
+double NoiseModel::RowsPerNumber(const std::string& channel) const {
+  const auto it = channels.find(channel);
+  return it == channels.end() ? 1 : it->second.rows_per_number;
+}
+
 NoiseModel StatedNoise(const RigParameters& rig, const std::map<std::string, double>& of_case) {
   NoiseModel noise;
   const auto state = [&](const std::string& channel, double rms) {
@@ -244,6 +250,9 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
   if (!clean) return noise;
   const ByChannel direct = WhiteParts(model, model.measured(), *clean, IsDirect);
   const auto quietest = QuietestErrors(model, model.measured(), *clean);
+  std::map<std::string, double> white;
+  for (const auto& [channel, parts] : direct) white[channel] = LowerQuartileOf(parts);
+  const auto coloured = FilteredNoises(model, *clean, white);
   for (const auto& [channel, parts] : direct) {
     const auto least = quietest.find(channel);
     if (least == quietest.end()) continue;  // no row of it counts
@@ -251,6 +260,11 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
     const bool uniform = AreAlike(parts);
     // a model's error only adds to it
     c.estimated = uniform ? MedianOf(parts) : LowerQuartileOf(parts);
+    if (const auto whole = coloured.find(channel);
+        whole != coloured.end() && !std::isfinite(c.stated)) {
+      c.estimated = std::min(whole->second.rms, least->second);
+      c.rows_per_number = whole->second.rows_per_number;
+    }
     const double factor = uniform ? kUniformAgrees : kNoiseAgrees;
     // Filtered noise has less in its fastest differences than as a whole: it is as large as stated where no record
     // has a smaller error.
@@ -270,8 +284,9 @@ std::vector<std::string> NoiseRemarks(const NoiseModel& noise) {
                       ? fmt::format("noise of {}: stated {:.3g}, the records show {:.3g}: the "
                                     "latter is used",
                                     channel, c.stated, c.estimated)
-                      : fmt::format("noise of {}: not stated, estimated from the records: {:.3g}",
-                                    channel, c.estimated));
+                      : fmt::format("noise of {}: not stated, estimated from the records: {:.3g}{}",
+                                    channel, c.estimated,
+                                    c.rows_per_number > 1 ? " (filtered)" : ""));
   }
   return out;
 }

@@ -18,6 +18,8 @@ struct ChannelNoise {
   double stated = std::numeric_limits<double>::quiet_NaN();
   double estimated = std::numeric_limits<double>::quiet_NaN();
   double used = 0;
+  double rows_per_number =
+      1;  // rows that are worth one independent number: more than one of filtered noise
 };
 
 struct NoiseModel {
@@ -28,6 +30,8 @@ struct NoiseModel {
 
   /// What is used of a channel; nan: nothing known of its own.
   double Used(const std::string& channel) const;
+  /// Rows of a channel's own noise that are worth one independent number, at least 1.
+  double RowsPerNumber(const std::string& channel) const;
 };
 
 /// What the case states; where it does not, what the rig file states.
@@ -38,8 +42,8 @@ RigParameters WithNoise(const RigParameters& rig, const NoiseModel& noise);
 
 /// Estimates the noise of every position, load cell, bus and current column from the differences
 /// between records and prediction (discovery/data/noise_estimate.h). A stated noise is kept when it
-/// agrees with the estimate within a factor of 1.5, or is larger and no record has a smaller error (filtered
-/// noise is not white); else, and where none is stated, the estimate is used. The noise of coil currents is told from what reaches them through the set-points by two
+/// agrees with the estimate within a factor of 1.5, or is larger and no record has a smaller error. Noise that is the
+/// same in all stretches of the records but not white counts as a whole (filtered_noise.h); else, and where none is stated, the estimate is used. The noise of coil currents is told from what reaches them through the set-points by two
 /// simulations, with much and with little of it. `model` holds all rows. Without a prediction the stated noise is
 /// returned.
 NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h);

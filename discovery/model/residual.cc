@@ -78,16 +78,37 @@ double TargetRatio(const CaseModel& model, const std::vector<double>& residual, 
   return n > 0 ? std::sqrt(sum / n) : 0;
 }
 
+double WorthOfPoint(const CaseModel& model) {
+  if (std::ranges::all_of(model.data().records, OverTime)) return 1;
+  double rows = 0;
+  for (const Target& t : model.targets())
+    if (OverTime(model.data().records[t.record])) rows += CountedRows(model, t);
+  return std::max(1.0, rows / kFloorNumbers);
+}
+
+double RatioOf(const ErrorSums& s, double worth_of_point) {
+  if (s.rows == 0 || s.points == 0) {
+    const double n = s.rows + s.points;
+    return n > 0 ? std::sqrt((s.square + s.square_points) / n) : 0;
+  }
+  return std::sqrt(
+      (std::max(s.square, s.rows) + worth_of_point * std::max(s.square_points, s.points)) /
+      (s.rows + worth_of_point * s.points));
+}
+
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which) {
-  double sum = 0, n = 0;
+  ErrorSums sums;
   for (const Target& t : model.targets()) {
     if (!Counts(model, t, which)) continue;
+    const bool rows = OverTime(model.data().records[t.record]);
+    double& square = rows ? sums.square : sums.square_points;
+    double& n = rows ? sums.rows : sums.points;
     for (std::size_t k = t.first; k < t.first + t.count; ++k) {
-      sum += residual[k] * residual[k];
+      square += residual[k] * residual[k];
       n += model.ok()[k];
     }
   }
-  return n > 0 ? std::sqrt(sum / n) : 0;
+  return RatioOf(sums, sums.points > 0 ? WorthOfPoint(model) : 1);
 }
 
 double KnownRatio(const CaseModel& model, const std::vector<double>& residual, Which which) {
@@ -123,6 +144,7 @@ double WorstRecordRatio(const CaseModel& model, const std::vector<double>& resid
 bool ShowsMotion(const CaseModel& model, const Target& t) {
   const CaseRecord& record = model.data().records[t.record];
   const std::string& channel = record.data.channels[t.channel].name;
+  if (record.kind == RecordKind::kFrf) return record.scenario.start != StartState::kClamped;
   return record.kind == RecordKind::kTime && record.scenario.start != StartState::kClamped &&
          (IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint));
 }

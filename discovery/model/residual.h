@@ -27,6 +27,23 @@ double CountedRows(const CaseModel& model, const Target& t);
 /// @throws InputError where no row of any record counts: no answer can be given, least of all agreement.
 void RequireCountedRows(const CaseModel& model);
 
+/// Independent numbers that an error over the floor of records over time is known by at most: their floor comes from two
+/// runs with noise, known to about 1 % of its power.
+inline constexpr double kFloorNumbers = 1e4;
+
+/// Errors over the floor of records over time, and of responses and tables, whose points have a standard deviation each
+/// and are independent.
+struct ErrorSums {
+  double square = 0, rows = 0;           // over time: Σ r², rows that count
+  double square_points = 0, points = 0;  // likewise
+};
+/// How many rows over time one point counts as where both are averaged: rows are so many that the uncertainty of their
+/// floor would hide what the points say. Points count in full, all rows together as kFloorNumbers at most.
+double WorthOfPoint(const CaseModel& model);
+/// rms over the floor of both kinds. Neither makes good what the other leaves: below the floor counts as the floor where
+/// both are there. 0 where nothing counts.
+double RatioOf(const ErrorSums& sums, double worth_of_point);
+
 /// Root mean square of a residual over the chosen records: 1 means nothing is left but noise. 0 where no row counts.
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);
 /// The same for a reader: not a number where no row counts.
@@ -42,7 +59,7 @@ struct RecordError {
 std::vector<RecordError> RecordErrors(const CaseModel& model, const std::vector<double>& residual);
 /// Largest ratio of any single record.
 double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual);
-/// A reading or a set-point of a free rotor's record over time.
+/// A reading or a set-point of a free rotor's record over time, or a response of a free rotor.
 bool ShowsMotion(const CaseModel& model, const Target& t);
 /// Largest ratio of the readings and set-points of any record of a free rotor: what moves the rotor
 /// reaches the currents through these only. 0 without such records.

@@ -8,6 +8,7 @@
 #include "core/base/coil_name.h"
 #include "core/math/constants.h"
 #include "core/math/noise.h"
+#include "discovery/model/linear_responses.h"
 #include "rig/clearance.h"
 #include "rig/parameters/bearing_kind.h"
 
@@ -19,7 +20,11 @@ constexpr int kLines = 15;          // of a multisine, per axis
 constexpr double kForce = 0.03;     // amplitude of a line, of the rotor's weight
 constexpr double kReference = 0.3;  // step of a reference, of the clearance
 constexpr double kLoad = 0.25;      // step of a load, of the weight
-constexpr double kOfRate = 0.45;    // of the controller's rate: lines of a multisine at most
+// Lines of a multisine at most, of the rate of the controller and of that of the record's rows.
+constexpr double kOfController = 0.3, kOfRecord = 0.4;
+constexpr double kLeastBandwidth = 4;  // highest over lowest line
+// Duration of a record of a free rotor, of the decay of its slowest mode; at most [s].
+constexpr double kDecaysSeen = 3, kLongestPlanned = 10;
 
 std::string Excited(const std::string& target, const std::string& port, const std::string& kind,
                     double start, double stop, double amplitude) {
@@ -27,6 +32,15 @@ std::string Excited(const std::string& target, const std::string& port, const st
       "\n[[excitation]]\ntarget = \"{}\"\nport = \"{}\"\nkind = \"{}\"\nstart = {:.5f}\nstop = "
       "{:.5f}\namplitude = {:.6g}\n",
       target, port, kind, start, stop, amplitude);
+}
+
+/// Of the loop that levitates the rotor at rest [s]; 0 where there is none.
+double SlowestDecayOf(const RigParameters& rig) {
+  try {
+    return LinearResponses(rig, rig, Scenario()).SlowestDecay();
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
 }
 
 /// Text of scenarios of one rig.
@@ -54,7 +68,6 @@ class Writer {
 
   /// Lines of all axes interleaved between f0 and f1 [Hz], multiples of 1/2 Hz.
   std::string Multisine(double duration, double f0, double f1, double size) const {
-    f1 = std::min(f1, std::max(f0, kOfRate * rig_.controller.rate));
     std::string text;
     std::uint32_t drawn = 0;
     for (std::size_t a = 0; a < axes_.size(); ++a) {
@@ -120,12 +133,22 @@ class Writer {
   }
 
   double Weight() const { return 9.81 * rig_.rotor.mass; }
+  /// [Hz] that controller and logger can tell.
+  double HighestLine() const {
+    return std::min(kOfController * rig_.controller.rate, kOfRecord * able_.record_rate);
+  }
+  /// A usual duration [s], longer where the loop takes longer to answer.
+  double Lasting(double usual) const {
+    if (slowest_ < 0) slowest_ = SlowestDecayOf(rig_);
+    return std::max(usual, std::min(kLongestPlanned, kDecaysSeen * slowest_));
+  }
 
  private:
   const RigParameters& rig_;
   const Abilities& able_;
   std::uint64_t seed_;
   std::vector<std::string> axes_;
+  mutable double slowest_ = -1;  // [s]
 };
 
 class Library {
@@ -147,8 +170,11 @@ class Library {
       const char* name;
       double f0, f1, duration;
     };
-    for (const Band& b :
-         {Band{"low", 2, 60, 0.63}, Band{"broad", 5, 1500, 0.43}, Band{"high", 150, 2500, 0.33}})
+    for (Band b :
+         {Band{"low", 2, 60, 0.63}, Band{"broad", 5, 1500, 0.43}, Band{"high", 150, 2500, 0.33}}) {
+      b.f1 = std::min(b.f1, writer_->HighestLine());
+      b.duration = writer_->Lasting(b.duration);
+      if (b.f1 < kLeastBandwidth * b.f0) continue;
       for (const double size : {1.0, 2.0})
         if (speed == 0 || (size == 1 && std::string(b.name) == "broad"))
           Levitated(fmt::format("{}{} multisine {}", size > 1 ? "strong " : "", b.name, at),
@@ -157,6 +183,7 @@ class Library {
                     b.duration, speed, speed, [b, size](const Writer& w, double s) {
                       return w.Multisine(b.duration, b.f0, b.f1, size * s);
                     });
+    }
   }
   void AddTurning() {
     for (const double part : {0.4, 1.0}) {
@@ -192,11 +219,13 @@ class Library {
   }
   void AddLevitated() {
     Multisines(0, "at rest");
+    const double duration = writer_->Lasting(0.35);
     if (able_.reference)
       for (const double size : {0.6, 1.2})
-        Levitated(size > 1 ? "large steps at rest" : "steps at rest",
-                  able_.load ? "steps of reference and load" : "steps of the reference", 0.35, 0, 0,
-                  [size](const Writer& w, double s) { return w.Steps(0.35, size * s); });
+        Levitated(
+            size > 1 ? "large steps at rest" : "steps at rest",
+            able_.load ? "steps of reference and load" : "steps of the reference", duration, 0, 0,
+            [size, duration](const Writer& w, double s) { return w.Steps(duration, size * s); });
     if (able_.top_speed > 0) AddTurning();
   }
   void AddLanded() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/case/test_records.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/experiment/measured_case.h"
 #include "discovery/model/nuisance_kinds.h"
@@ -71,6 +72,8 @@ EffectNames NamesLeft(const Explanation& e, std::size_t most) {
 }
 
 Plan PlanForCase(const Case& c, const EffectNames& names, const PlanOptions& options) {
+  if (const std::optional<Case> seen = WithoutTestRecords(c))
+    return PlanForCase(*seen, names, options);
   const auto progress = [&](double f, const std::string& text) {
     if (options.stop && options.stop->load()) throw Interrupted();
     if (options.progress) options.progress(f, text);

@@ -10,6 +10,7 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "discovery/case/effect_target.h"
+#include "discovery/case/test_records.h"
 #include "discovery/decision/last_fit.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/coil_errors.h"
@@ -64,6 +65,8 @@ FitResult FitToTheEnd(CaseModel& model, const FitResult& found, double independe
 
 Adoption Adopt(const Case& c, const std::string& effect, const std::string& target,
                const std::string& output, const ExplainOptions& options) {
+  if (const std::optional<Case> seen = WithoutTestRecords(c))
+    return Adopt(*seen, effect, target, output, options);
   const auto progress = [&](double f, const std::string& text) {
     if (options.stop && options.stop->load()) throw Interrupted();
     if (options.progress) options.progress(f, text);

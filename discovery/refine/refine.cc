@@ -9,6 +9,7 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "core/record/channels.h"
+#include "discovery/case/test_records.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/coil_errors.h"
 #include "discovery/model/floor.h"
@@ -136,7 +137,7 @@ std::string RigText(const Case& c, const Refinement& r, const std::string& outpu
 
 }  // namespace
 
-Refinement Refine(const Case& c, const std::string& effect, const std::string& target,
+Refinement Refine(const Case& whole, const std::string& effect, const std::string& target,
                   const std::string& output, const ExplainOptions& options) {
   const auto progress = [&](double f, const std::string& text) {
     if (options.stop && options.stop->load()) throw Interrupted();
@@ -147,6 +148,9 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
     throw InputError(
         fmt::format("{} has no curve to refine, allowed: {}", effect, RefinableEffects()));
   Refinement out;
+  if (std::optional<Case> seen = WithoutTestRecords(whole))
+    out.seen = std::make_unique<const Case>(*std::move(seen));
+  const Case& c = out.seen ? *out.seen : whole;
   out.model = std::make_unique<CaseModel>(c);
   CaseModel thin(c, ThinningTo(c, kSearchRows));
   out.model->stop = thin.stop = options.stop;
@@ -180,8 +184,7 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
   out.residual_before =
       AllRows(*out.model, law.fit.hypothesis, &out.ratio_fit_before, &out.ratio_before);
   out.residual_after = AllRows(*out.model, written, &out.ratio_fit_after, &out.ratio_after);
-  out.any_unseen = std::any_of(c.records.begin(), c.records.end(),
-                               [](const CaseRecord& r) { return r.validate; });
+  out.any_unseen = AnyValidates(c);
   out.ladder = {{"parameters", law.base.ratio_fit, law.base.ratio_validate},
                 {NameAtTarget(effect, named.target), out.ratio_fit_before, out.ratio_before},
                 {"refined", out.ratio_fit_after, out.ratio_after}};

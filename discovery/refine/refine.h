@@ -31,6 +31,7 @@ struct Refinement {
   std::vector<double> residual_before, residual_after;  // all rows of `model`
   std::vector<std::string> warnings;
   std::string rig_text;
+  std::unique_ptr<const Case> seen;  // that of `model` where the case has records of the test
   std::unique_ptr<CaseModel> model;  // all rows, floors set
 };
 

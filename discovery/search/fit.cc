@@ -32,9 +32,7 @@ void EstimateCovariance(const FitProblem& cost, FitResult& result) {
   const std::size_t p = h.free.size();
   result.jacobian = cost.FullJacobian(h);
   const auto n = static_cast<Index>(p);
-  Eigen::MatrixXd information =
-      cost.weight() * cost.weight() *
-      FitGram(cost.model(), cost.look(), result.jacobian, result.residual).topLeftCorner(n, n);
+  Eigen::MatrixXd information = cost.Information(result.jacobian);
   result.sd.assign(p, 0);
   Eigen::VectorXd influence = information.diagonal().cwiseSqrt();
   AddPriorInformation(h, information);

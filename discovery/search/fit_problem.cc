@@ -56,6 +56,21 @@ double FitProblem::MisfitBetween(double before, double after) const {
   return weight_ * weight_ * rows * (before * before - after * after);
 }
 
+Eigen::MatrixXd FitProblem::Information(const Eigen::MatrixXd& jacobian) const {
+  const double per_number = weight_ * weight_ *
+                            static_cast<double>(std::max<std::size_t>(1, model_.size())) /
+                            options_.effective_sample_size;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+  for (const Target& t : model_.targets()) {
+    if (!look_.records[t.record]) continue;
+    const auto rows =
+        jacobian.middleRows(static_cast<Eigen::Index>(t.first), static_cast<Eigen::Index>(t.count));
+    const double weight = t.independent > 0 ? per_number * t.independent : weight_ * weight_;
+    sum.noalias() += weight * (rows.transpose() * rows);
+  }
+  return sum;
+}
+
 void FitProblem::Refresh() {
   base_jacobian_.resize(0, 0);
   jacobian_.resize(0, 0);

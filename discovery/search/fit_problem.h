@@ -42,6 +42,10 @@ class FitProblem {
   /// The same on all records: the rig's where the last pass took them (in memory for what it looked at).
   Eigen::MatrixXd FullJacobian(const Hypothesis& h) const;
 
+  /// What the records looked at tell of all parameters, by their sensitivities on all rows: a row counts as the
+  /// numbers that it is worth, where that is known.
+  Eigen::MatrixXd Information(const Eigen::MatrixXd& jacobian) const;
+
   double weight() const { return weight_; }
   const CaseModel& model() const { return model_; }
   const RecordSubset& look() const { return look_; }

@@ -7,8 +7,6 @@
 namespace ambrig {
 
 namespace {
-// the floor comes from two runs with noise: known to about 1 % of its power
-constexpr double kFloorNumbers = 1e4;
 // price of one more kind of effect: the same cause twice is likelier than two
 constexpr double kLaw = 4;
 // sd of the share that a law with other details explains, over what the best law leaves
@@ -34,8 +32,11 @@ double Misfit(double ratio, double n) {
 double Score(const CaseModel& model, double ratio_fit, double ratio_validate,
              double effective_sample_size, int parameters, double penalty) {
   double fit = 0, validate = 0;
+  const double worth_of_point = WorthOfPoint(model);
   for (const Target& t : model.targets())
-    (Counts(model, t, Which::kFit) ? fit : validate) += static_cast<double>(t.count);
+    (Counts(model, t, Which::kFit) ? fit : validate) +=
+        static_cast<double>(t.count) *
+        (OverTime(model.data().records[t.record]) ? 1 : worth_of_point);
   const double share = fit / (fit + validate);
   const double n = std::min(effective_sample_size, kFloorNumbers);
   const auto misfit = [n](double ratio) { return Misfit(std::max(1.0, ratio), n); };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "core/math/linear_equations.h"
 #include "discovery/model/residual.h"
@@ -32,9 +31,23 @@ LinearJudge::LinearJudge(const CaseModel& model, const FitResult& base, Signatur
       Eigen::Map<const Eigen::VectorXd>(base.residual.data(), static_cast<Index>(model.size()));
   own_ = RowProducts(model, columns, columns);
   with_ = bank.ProductsWith(model, columns);
-  for (const Target& t : model.targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      (Counts(model, t, Which::kFit) ? n_fit_ : n_validate_) += model.ok()[k];
+  worth_of_point_ = WorthOfPoint(model);
+  for (const Target& t : model.targets()) {
+    ErrorSums& counted = counted_[Counts(model, t, Which::kFit) ? 0 : 1];
+    (OverTime(model.data().records[t.record]) ? counted.rows : counted.points) +=
+        CountedRows(model, t);
+  }
+}
+
+double LinearJudge::RatioLeft(const Gram& g, const Eigen::VectorXd& c, Which which) const {
+  const bool fit = which == Which::kFit;
+  ErrorSums sums = counted_[fit ? 0 : 1];
+  sums.square = std::max(0.0, c.dot((fit ? g.fit : g.validate) * c));
+  if (sums.points > 0) {
+    sums.square_points = std::max(0.0, c.dot((fit ? g.fit_points : g.validate_points) * c));
+    sums.square = std::max(0.0, sums.square - sums.square_points);
+  }
+  return RatioOf(sums, worth_of_point_);
 }
 
 std::vector<LinearJudge::Column> LinearJudge::ColumnsOf(const SignatureBank::Entry& entry) {
@@ -60,10 +73,12 @@ std::vector<LinearJudge::Column> LinearJudge::ColumnsOf(const SignatureBank::Ent
 
 Gram LinearJudge::Assemble(const std::vector<Column>& columns) const {
   const Index m = static_cast<Index>(columns.size()), n = nb_ + 1 + m;
-  Gram g = {Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n)};
-  for (auto [all, own, with, bank] :
-       {std::tuple{&g.fit, &own_.fit, &with_.fit, &bank_.fit},
-        std::tuple{&g.validate, &own_.validate, &with_.validate, &bank_.validate}}) {
+  Gram g = Gram::Zero(model_, n, n);
+  for (const auto part : {&Gram::fit, &Gram::validate, &Gram::fit_points, &Gram::validate_points}) {
+    if ((g.*part).size() == 0) continue;
+    Eigen::MatrixXd* const all = &(g.*part);
+    const Eigen::MatrixXd *const own = &(own_.*part), *const with = &(with_.*part),
+                                 *const bank = &(bank_.*part);
     all->topLeftCorner(nb_ + 1, nb_ + 1) = *own;
     for (Index i = 0; i < m; ++i) {
       const Index a = columns[static_cast<std::size_t>(i)].at;
@@ -130,10 +145,9 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
         penalty += std::pow(base_.hypothesis.Coordinate(static_cast<std::size_t>(k)) - c(k), 2);
     s.amount = -c.tail(m);
     s.shift = -c.head(nb_);
-    s.ratio_fit = std::sqrt(std::max(0.0, c.dot(g.fit * c)) / std::max(1.0, n_fit_));
-    s.ratio_validate = n_validate_ > 0
-                           ? std::sqrt(std::max(0.0, c.dot(g.validate * c)) / n_validate_)
-                           : s.ratio_fit;
+    s.ratio_fit = RatioLeft(g, c, Which::kFit);
+    s.ratio_validate =
+        counted_[1].rows + counted_[1].points > 0 ? RatioLeft(g, c, Which::kValidate) : s.ratio_fit;
     // The amount furthest outside its limits stays at the limit.
     const Index worst = WorstOutside(columns, s.amount, fixed);
     if (worst >= 0) {
@@ -216,8 +230,9 @@ double LinearJudge::LeastVisible(const SignatureBank::Entry& entry, Index column
 
 double LinearJudge::SignatureSize(const SignatureBank::Entry& entry, Index column) const {
   const Index at = entry.first + column;
-  return std::sqrt((bank_.fit(at, at) + bank_.validate(at, at)) /
-                   std::max(1.0, n_fit_ + n_validate_));
+  return std::sqrt(
+      (bank_.fit(at, at) + bank_.validate(at, at)) /
+      std::max(1.0, counted_[0].rows + counted_[0].points + counted_[1].rows + counted_[1].points));
 }
 
 CandidatePair LinearJudge::Pair(const SignatureBank::Entry& first,

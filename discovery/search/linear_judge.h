@@ -64,7 +64,10 @@ class LinearJudge {
   const SignatureBank& signatures_;
   Gram own_, with_;  // [rig columns, residual] among themselves and with the bank
   const Gram& bank_;
-  double n_fit_ = 0, n_validate_ = 0;
+  /// rms over the floor of fitted or unseen records: a sum of columns with these factors is left.
+  double RatioLeft(const Gram& g, const Eigen::VectorXd& c, Which which) const;
+  ErrorSums counted_[2];  // rows and points of the fitted and of the unseen records
+  double worth_of_point_ = 1;
 };
 
 }  // namespace ambrig

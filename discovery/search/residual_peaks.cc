@@ -172,6 +172,30 @@ std::vector<double> TonesLookedAt(const CaseModel& model, const std::vector<doub
   return f;
 }
 
+/// Frequencies of the points of responses with the largest errors, which a resonance may be narrower than the lines of.
+std::vector<double> PeaksOfResponses(const CaseModel& model, const std::vector<double>& residual) {
+  constexpr double kSeen = 9;  // squared error of a response's point, real and imaginary part
+  constexpr std::size_t kPoints = 4;
+  std::map<std::pair<std::size_t, std::size_t>, double>
+      errors;  // of a record's point, largest response
+  for (const Target& t : model.targets())
+    if (model.data().records[t.record].kind == RecordKind::kFrf)
+      for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+        double& error = errors[{t.record, model.sample(k)}];
+        error = std::max(error, residual[k] * residual[k]);
+      }
+  std::vector<std::pair<double, double>> points;  // error, frequency
+  for (const auto& [point, error] : errors)
+    if (error > kSeen)
+      points.emplace_back(error,
+                          model.data().records[point.first].responses.frequency[point.second]);
+  std::ranges::stable_sort(points, std::greater{}, &std::pair<double, double>::first);
+  std::vector<double> out;
+  for (const auto& [error, f] : points)
+    if (out.size() < kPoints) AppendApart(out, {f}, 0.02);
+  return out;
+}
+
 }  // namespace
 
 void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio) {
@@ -210,7 +234,8 @@ ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& resid
   for (std::size_t n = 0; n < any_phase.size(); ++n)
     for (std::size_t k = 0; k < any_phase[n].size(); ++k)
       power[k] += std::norm(any_phase[n][k]) / static_cast<double>(model.targets()[n].count);
-  peaks.spectrum = Peaks(wide, power, kSpectrumPeaks, 0.1);
+  peaks.spectrum = PeaksOfResponses(model, residual);
+  AppendApart(peaks.spectrum, Peaks(wide, power, kSpectrumPeaks, 0.1), 0.02);
   return peaks;
 }
 

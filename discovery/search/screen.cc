@@ -70,7 +70,9 @@ std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
         MakeInstance(EffectNamed(probes[0].probes[0].name), probes[0].probes[0].target);
     const std::vector<EffectInstance> starts =
         ResonanceStarts(base.hypothesis.rig, null, seen.estimates);
-    if (seen.looked && starts.empty() && IsResonance(EffectNamed(null.name))) return {};
+    if (seen.looked && starts.empty() && IsResonance(EffectNamed(null.name)) &&
+        !ResponsesShowError(model, base))
+      return {};
     return ScanStarts(StartSearch(model, base, effective_sample_size), probes, starts);
   } catch (const InputError&) {
     return probes;

@@ -15,7 +15,7 @@ constexpr std::size_t kChunk = 24;  // predictions of a chunk are in memory toge
 
 struct Span {
   Index first = 0, count = 0;
-  bool validate = false;
+  bool validate = false, points = false;
 };
 
 /// Rows of each record: its targets lie together.
@@ -24,7 +24,8 @@ std::vector<Span> RecordSpans(const CaseModel& model) {
   std::size_t record = static_cast<std::size_t>(-1);
   for (const Target& t : model.targets()) {
     if (t.record != record)
-      spans.push_back({static_cast<Index>(t.first), 0, Counts(model, t, Which::kValidate)});
+      spans.push_back({static_cast<Index>(t.first), 0, Counts(model, t, Which::kValidate),
+                       !OverTime(model.data().records[t.record])});
     record = t.record;
     spans.back().count += static_cast<Index>(t.count);
   }
@@ -37,7 +38,7 @@ std::vector<Span> RowBlocks(const CaseModel& model) {
   std::vector<Span> blocks;
   for (const Span& s : RecordSpans(model))
     for (Index row = s.first; row < s.first + s.count; row += kRows)
-      blocks.push_back({row, std::min(kRows, s.first + s.count - row), s.validate});
+      blocks.push_back({row, std::min(kRows, s.first + s.count - row), s.validate, s.points});
   return blocks;
 }
 
@@ -46,14 +47,22 @@ template <class Product>
 void AddProducts(const std::vector<Span>& spans, Gram* sum, const Product& product) {
   std::vector<Eigen::MatrixXd> parts(spans.size());
   InParallel(spans.size(), [&](std::size_t k) { parts[k] = product(spans[k]); });
-  for (std::size_t k = 0; k < spans.size(); ++k)
+  for (std::size_t k = 0; k < spans.size(); ++k) {
     (spans[k].validate ? sum->validate : sum->fit) += parts[k];
+    if (spans[k].points) (spans[k].validate ? sum->validate_points : sum->fit_points) += parts[k];
+  }
 }
 
 }  // namespace
 
+Gram Gram::Zero(const CaseModel& model, Index rows, Index cols) {
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(rows, cols);
+  if (std::ranges::all_of(model.data().records, OverTime)) return {zero, zero, {}, {}};
+  return {zero, zero, zero, zero};
+}
+
 Gram RowProducts(const CaseModel& model, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Gram g = {Eigen::MatrixXd::Zero(a.cols(), b.cols()), Eigen::MatrixXd::Zero(a.cols(), b.cols())};
+  Gram g = Gram::Zero(model, a.cols(), b.cols());
   AddProducts(RecordSpans(model), &g, [&](const Span& s) -> Eigen::MatrixXd {
     return a.middleRows(s.first, s.count).transpose() * b.middleRows(s.first, s.count);
   });
@@ -227,24 +236,25 @@ const Gram& SignatureBank::Products(const CaseModel& model) {
   if (multiplied_ == used_) return products_;
   // All columns by the new ones.
   const Index n = used_ - multiplied_;
-  Gram fresh = {Eigen::MatrixXd::Zero(used_, n), Eigen::MatrixXd::Zero(used_, n)};
+  Gram fresh = Gram::Zero(model, used_, n);
   AddProducts(RowBlocks(model), &fresh, [&](const Span& s) {
     const Eigen::MatrixXf part = columns_.block(s.first, 0, s.count, used_).transpose() *
                                  columns_.block(s.first, multiplied_, s.count, n);
     return Eigen::MatrixXd(part.cast<double>());
   });
-  products_.fit.conservativeResize(used_, used_);
-  products_.validate.conservativeResize(used_, used_);
-  products_.fit.rightCols(n) = fresh.fit;
-  products_.validate.rightCols(n) = fresh.validate;
-  for (Eigen::MatrixXd* m : {&products_.fit, &products_.validate})
-    m->bottomLeftCorner(n, multiplied_) = m->topRightCorner(multiplied_, n).transpose();
+  for (const auto part : {&Gram::fit, &Gram::validate, &Gram::fit_points, &Gram::validate_points}) {
+    if ((fresh.*part).size() == 0) continue;
+    Eigen::MatrixXd& all = products_.*part;
+    all.conservativeResize(used_, used_);
+    all.rightCols(n) = fresh.*part;
+    all.bottomLeftCorner(n, multiplied_) = all.topRightCorner(multiplied_, n).transpose();
+  }
   multiplied_ = used_;
   return products_;
 }
 
 Gram SignatureBank::ProductsWith(const CaseModel& model, const Eigen::MatrixXd& a) const {
-  Gram g = {Eigen::MatrixXd::Zero(a.cols(), used_), Eigen::MatrixXd::Zero(a.cols(), used_)};
+  Gram g = Gram::Zero(model, a.cols(), used_);
   AddProducts(RowBlocks(model), &g, [&](const Span& s) -> Eigen::MatrixXd {
     return a.middleRows(s.first, s.count).transpose() *
            columns_.block(s.first, 0, s.count, used_).cast<double>();

@@ -13,9 +13,12 @@
 
 namespace ambrig {
 
-/// Products over the rows of the fit records and over those of the unseen ones.
+/// Products over the rows of the fit records and over those of the unseen ones; the part of either that points of
+/// records which are not over time have in them (empty without such records).
 struct Gram {
   Eigen::MatrixXd fit, validate;
+  Eigen::MatrixXd fit_points, validate_points;
+  static Gram Zero(const CaseModel& model, Eigen::Index rows, Eigen::Index cols);
 };
 
 class SignatureBank {

@@ -113,6 +113,16 @@ bool ChangeNothing(const StartSearch& search, const std::vector<SimulatedStart>&
   return ends[0].score == search.here() && ends[1].score == search.here();
 }
 
+/// The size that responses ask for: these tell of much smaller resonances than records over time do.
+void AddAskedSize(const StartSearch& search, std::vector<SimulatedStart>& sizes) {
+  constexpr double kSmaller = 0.5;  // of the least size
+  const SimulatedStart& least = sizes.back();
+  if (!(least.amount > 0 && least.amount < kSmaller)) return;
+  std::vector<SimulatedStart> asked = {{ScaledResonance(least.effect, least.amount)}};
+  search.Simulate(asked);
+  sizes.push_back(std::move(asked[0]));
+}
+
 /// Every probe in few sizes, then the better half of the resonances in all.
 std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
                                            const std::vector<ProbeGroup>& groups) {
@@ -124,6 +134,7 @@ std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
     std::vector<SimulatedStart> sizes = resonance ? FewSizesOfResonance(e) : SizesOfContact(e);
     if (!resonance && ChangeNothing(search, sizes)) continue;
     search.Simulate(sizes);
+    if (resonance) AddAskedSize(search, sizes);
     if (resonance)
       resonances.emplace_back(std::min_element(sizes.begin(), sizes.end(), ExplainsMore)->score,
                               &e);
@@ -156,6 +167,20 @@ StartSearch::StartSearch(const CaseModel& model, const FitResult& now, double ef
   here_ = Score(model, Ratio(model, residual, Which::kFit),
                 Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0);
   excess_ = Excess(residual);
+  if (ResponsesShowError(model, now)) residual_ = residual;
+}
+
+double StartSearch::AmountOf(const std::vector<double>& residual) const {
+  double product = 0, square = 0;
+  for (const Target& t : model_.targets()) {
+    if (!look_.records[t.record] || residual_.empty()) continue;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      const double change = residual_[k] - residual[k];
+      product += residual_[k] * change;
+      square += change * change;
+    }
+  }
+  return square > 0 ? product / square : 1;
 }
 
 double StartSearch::Excess(const std::vector<double>& residual) const {
@@ -187,6 +212,7 @@ void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
           Score(model_, Ratio(model_, residual, Which::kFit),
                 Ratio(model_, residual, Which::kValidate), effective_sample_size_, 0, 0);
       starts[k].share = excess_ > 0 ? 1 - Excess(residual) / excess_ : 0;
+      starts[k].amount = AmountOf(residual);
     }
   }
 }

@@ -13,6 +13,7 @@ namespace ambrig {
 struct SimulatedStart {
   EffectInstance effect;
   double score = kInfinity, share = 0;
+  double amount = 1;  // of its answer that the error of responses asks for, by least squares
 };
 
 /// Where starts are tried: on top of `now`, on the fitted records of free rotors that hold most of its
@@ -45,7 +46,11 @@ class StartSearch {
   /// Σ r² less the noise's, of the records looked at.
   double Excess(const std::vector<double>& residual) const;
 
+  /// Of what a start changes, by the residuals without and with it.
+  double AmountOf(const std::vector<double>& residual) const;
+
   RecordSubset look_;
+  std::vector<double> residual_;  // without a start, where responses are looked at; else empty
   double here_ = 0, excess_ = 0;
   bool beside_others_;
 };

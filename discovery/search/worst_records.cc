@@ -23,6 +23,13 @@ std::vector<RecordError> ErrorsOf(const CaseModel& model, const FitResult& now) 
 
 }  // namespace
 
+bool ResponsesShowError(const CaseModel& model, const FitResult& now) {
+  return std::ranges::any_of(model.targets(), [&](const Target& t) {
+    return model.data().records[t.record].kind == RecordKind::kFrf && ShowsMotion(model, t) &&
+           TargetRatio(model, now.residual, t) > kPlain;
+  });
+}
+
 RecordSubset WorstRecords(const CaseModel& model, const FitResult& now) {
   const std::vector<CaseRecord>& records = model.data().records;
   RecordSubset look{std::vector<char>(records.size(), 0), now.predicted};

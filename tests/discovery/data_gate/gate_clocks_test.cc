@@ -55,6 +55,19 @@ void Delay(CaseRecord& r, std::ptrdiff_t rows, const std::function<bool(const Ch
     }
 }
 
+// One column that its logger writes late, by less than is gross: nothing in a rig does that.
+TEST(GateClocks, OneColumnThatIsLateAndNothingElse) {
+  Case c = Measured({}, 0, kMultisine);
+  CaseRecord& r = c.records[RecordNamed(c, kMultisine)];
+  const auto rows = static_cast<std::ptrdiff_t>(std::lround(8e-4 * r.data.rate));
+  Delay(r, rows, [](const ChannelId& id) { return id.name() == "A.x"; });
+  const std::vector<DataFault> faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "lag") << FaultText(faults[0]);
+  EXPECT_EQ(faults[0].channel, "A.x");
+  EXPECT_NEAR(faults[0].seconds, 8e-4, 1e-4);
+}
+
 // One converter module, one bearing's electronics, one amplifier of load cells: all of their columns are late, no other is.
 TEST(GateClocks, TheColumnsOfOneConverter) {
   struct Group {

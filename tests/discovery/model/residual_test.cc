@@ -52,6 +52,24 @@ TEST(Residual, AKindOfRecordThatTheCaseHasNotLeavesNoError) {
   EXPECT_GT(Ratio(model, r, Which::kFit), 0);
 }
 
+// Points of a response are few beside rows over time, whose floor is known to 1 % of its power: they count in full, the
+// rows as 1e4 numbers. What rows leave below their floor does not make good what points leave.
+TEST(Ratio, OfRowsAndPointsCountsEitherByWhatItTells) {
+  ErrorSums sums;
+  sums.square = 0.96 * 150000;
+  sums.rows = 150000;
+  EXPECT_NEAR(RatioOf(sums, 15), std::sqrt(0.96), 1e-12);
+  sums.square_points = 9 * 120;
+  sums.points = 120;
+  EXPECT_NEAR(RatioOf(sums, 15), std::sqrt((1e4 + 9 * 120) / (1e4 + 120)), 1e-12);
+  sums.rows = sums.square = 0;
+  EXPECT_NEAR(RatioOf(sums, 15), 3, 1e-12);
+}
+
+TEST(Ratio, WithoutPointsAPointIsARow) {
+  EXPECT_EQ(WorthOfPoint(CaseModel(LinearCase::Make({2e-5}, 1, 0))), 1);
+}
+
 TEST(Hypothesis, CoordinatesAndValuesAreInverse) {
   const LinearCase c({2e-5, 4e-5}, 1, 0);
   Hypothesis h = c.With({LinearCase::Gain(1.02), LinearCase::Offset(-2e-6)});

@@ -50,6 +50,34 @@ TEST(PlanCandidates, SizeScalesTheExcitation) {
   }
 }
 
+// A rig that is controlled at 1 kHz and logged at 200 Hz: no line beyond what either tells.
+TEST(PlanCandidates, StayWithinTheBandOfControllerAndLogger) {
+  RigParameters rig = ReferenceRig();
+  rig.controller.rate = 1000;
+  Abilities able = StatedAbilities(rig, 0, false);
+  able.record_rate = 200;
+  double highest = 0;
+  for (const PlanCandidate& c : PlanCandidates(rig, able, 3))
+    for (const Excitation& e : ReadScenarioText(c.toml(1), c.title, rig).excitations)
+      for (const double f : e.frequencies) highest = std::max(highest, f);
+  EXPECT_GT(highest, 40);
+  EXPECT_LE(highest, 80 + 0.5);
+}
+
+// Records of a free rotor last as long as its loop needs to answer.
+TEST(PlanCandidates, LastAsLongAsTheSlowestModeNeeds) {
+  RigParameters rig = ReferenceRig();
+  const auto longest = [&] {
+    double out = 0;
+    for (const PlanCandidate& c : PlanCandidates(rig, StatedAbilities(rig, 0, false), 3))
+      if (c.title == "low multisine at rest") out = c.duration;
+    return out;
+  };
+  const double usual = longest();
+  rig.controller.pid.ki *= 1e-2;
+  EXPECT_GT(longest(), 2 * usual);
+}
+
 const PlanCandidate& CandidateOf(const std::vector<PlanCandidate>& all, const std::string& title) {
   for (const PlanCandidate& c : all)
     if (c.title == title) return c;

@@ -240,6 +240,21 @@ TEST(Fit, NamesAParameterWithoutInfluence) {
   EXPECT_NEAR(fit.hypothesis.free[0].value, 1.05, 1e-6);
 }
 
+// Rows that are worth a quarter of a number each tell a size half as well.
+TEST(Fit, TheSdFollowsWhatARowIsWorth) {
+  LinearCase c{{1e-5, 3e-5, 5e-5}, 1.02, 0};
+  FitOptions options;
+  options.effective_sample_size = static_cast<double>(c.model.size());
+  const auto sd = [&](double independent) {
+    for (Target& t : c.model.targets()) t.independent = independent;
+    return Fit(c.model, c.With({LinearCase::Gain(1.02)}), options).sd[0];
+  };
+  const double every = sd(1);
+  EXPECT_GT(every, 0);
+  EXPECT_NEAR(sd(0), every, 1e-9 * every);  // not known: as many as the case has in all
+  EXPECT_NEAR(sd(0.25), 2 * every, 1e-3 * every);
+}
+
 // Nothing to fit: the figures of the start, 5 µm over the floor in half of the rows.
 TEST(Fit, WithoutFreeParametersItIsAnEvaluation) {
   const LinearCase c{{1e-5, 3e-5}, 1, 5e-6};
