@@ -14,13 +14,18 @@ namespace ambrig {
 /// Floors above which an error of a column is gross; below it a fit may speak first.
 inline constexpr double kGrossError = 10;
 
+/// What is wrong with a whole column (DataFault::with).
+inline constexpr const char *kEmpty = "empty", *kWholeColumn = "whole record";
+
 struct DataFault {
   std::string record, channel;  // data file; "" for all columns of the record
   std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario
   double factor = 1;   // measured over what it should be [-]: unit, sign
   double seconds = 0;  // late (positive), lost, frozen or clipped time [s]
-  std::string with;    // the other column, the scenario that fits; "phase", "conjugate", "decibels"
-  std::string mend;    // a line to paste into the record's table of the case file
+  std::string
+      with;  // the other column, the scenario that fits; "phase", "conjugate", "decibels", "empty" ...
+  std::string
+      mend;  // a line to paste into the record's table of the case file; "": the data file is to be corrected
   double probability = 0;
 };
 
@@ -47,6 +52,9 @@ std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<doub
 std::string FaultText(const DataFault& fault);
 
 // The checks, one per kind; each marks the columns that it explains. `record`: number in the case.
+/// Columns that are empty or at one value in the whole record, and a bus of 0 V.
+void CheckConstantColumns(const CaseModel& model, std::size_t record,
+                          std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 /// Values far beyond what the rig can show, where they are few; later checks leave them out.
 void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
