@@ -8,6 +8,7 @@
 #include "discovery/decision/drift_test.h"
 #include "discovery/decision/evidence.h"
 #include "discovery/decision/likelihood.h"
+#include "discovery/decision/second_round.h"
 
 namespace ambrig {
 
@@ -150,6 +151,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
       ((within_units && out.verdict == "parameters") || (rest_within_units && established)))
     out.remainder = {"law-variation", {}, SaidOfUnits(out.closure.floors_after, of_units)};
   if (out.shaped) SayShape(last, out);
+  SettleSecondRound(model.data().rig.effects.size(), out);
 }
 
 void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {

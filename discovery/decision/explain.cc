@@ -11,6 +11,7 @@
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
+#include "discovery/decision/parameter_shifts.h"
 #include "discovery/decision/prepared_models.h"
 
 namespace ambrig {
@@ -212,12 +213,8 @@ FitResult Explainer::AllRows(const FitResult& fit) const {
 }
 
 void Explainer::NoteShifts(const FitResult& base) {
-  for (std::size_t k = 0; k < base.hypothesis.free.size(); ++k) {
-    const double sds = base.hypothesis.Coordinate(k);
-    if (std::abs(sds) > 1 && base.hypothesis.free[k].effect < 0)
-      out_.parameter_shifts.push_back(
-          fmt::format("{} {:+.2f} sd", base.hypothesis.free[k].path, sds));
-  }
+  constexpr double kToldFrom = 1;  // sd
+  out_.parameter_shifts = ParameterShifts(base.hypothesis, kToldFrom);
 }
 
 /// Pairs that these records leave open, and the record that would decide.

@@ -79,7 +79,6 @@ void Explainer::JudgeOnlyName(const FitResult& base, FitResult& now) {
 /// Each effect against its rivals beside the others; where a better one takes a place, once more. What is left alone of
 /// a pair was found by the pair's fit: no round has compared it with other names.
 void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which) {
-  constexpr double kBetter = 2;  // of the score: 73 to 27 %
   constexpr int kPasses = 2;
   if (out_.adopted.size() == 1 && (which == Names::kAllAnew || out_.ranking.empty() ||
                                    !IsSameName(out_.ranking[0].effect, out_.adopted[0])))
@@ -100,7 +99,7 @@ void Explainer::RejudgeNames(const FitResult& base, FitResult& now, Names which)
       const std::size_t place = rig_.effects.size() + k;
       if (!IsSameName(best.effect, out_.adopted[k]) &&
           !ComparedByShape(best.effect, out_.adopted[k]) && HasSize(best.fit, place) &&
-          (Believable(best.fit) || !Believable(now)) && Gain(now, best.fit) > kBetter) {
+          (Believable(best.fit) || !Believable(now))) {
         out_.ladder.push_back({Named(best.effect) + " in place of " + Named(out_.adopted[k]),
                                best.fit.ratio_fit, best.fit.ratio_validate});
         now = best.fit;
