@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/errors.h"
 #include "discovery/decision/prepared_models.h"
@@ -96,13 +97,19 @@ std::optional<Planner::Scored> Planner::Score(const PlanCandidate& c, TriedScena
     s.safety.safe = true;
     for (const Rival& r : rivals_) {
       const SafetyResult one = CheckSafety(trial, r, {});
-      s.safety.largest_orbit = std::max(s.safety.largest_orbit, one.largest_orbit);
+      if (one.largest_orbit > s.safety.largest_orbit) {
+        s.safety.largest_orbit = one.largest_orbit;
+        s.safety.orbit_at = one.orbit_at;
+      }
+      s.safety.orbit_share = std::max(s.safety.orbit_share, one.orbit_share);
       s.safety.largest_current = std::max(s.safety.largest_current, one.largest_current);
-      if (!one.safe) s.safety = {false, one.largest_orbit, one.largest_current, one.reason};
+      if (!one.safe) s.safety = one;
       if (!one.safe) break;
     }
     tried->size = size;
     tried->largest_orbit = s.safety.largest_orbit;
+    tried->orbit_at = s.safety.orbit_at;
+    tried->orbit_share = s.safety.orbit_share;
     tried->refused = s.safety.reason;
     if (!s.safety.safe && c.toml(size) == c.toml(1) && size < 1) return std::nullopt;
     if (!s.safety.safe) continue;
@@ -140,12 +147,15 @@ Plan Planner::Run() {
     TriedScenario tried;
     std::optional<Scored> s = Score(candidates[k], &tried);
     plan.tried.push_back(tried);
-    if (s && (!best || s->least > best->least)) best = std::move(s);
+    // of those that tell the names apart equally well the one that moves the rotor least
+    if (s && (!best || std::pair(s->least, -s->safety.orbit_share) >
+                           std::pair(best->least, -best->safety.orbit_share)))
+      best = std::move(s);
   }
   std::stable_sort(plan.tried.begin(), plan.tried.end(),
                    [](const TriedScenario& a, const TriedScenario& b) {
-                     return std::pair(a.refused.empty(), a.least_distance) >
-                            std::pair(b.refused.empty(), b.least_distance);
+                     return std::tuple(a.refused.empty(), a.least_distance, -a.orbit_share) >
+                            std::tuple(b.refused.empty(), b.least_distance, -b.orbit_share);
                    });
   if (!best)
     throw InputError(

@@ -140,6 +140,8 @@ TEST(Safety, RefusesAnOrbitNearTheStops) {
   // the step is reached, and even an undamped loop would overshoot to no more than twice of it
   EXPECT_GT(a.largest_orbit, 1.9e-5);
   EXPECT_LT(a.largest_orbit, 4e-5);
+  EXPECT_EQ(a.orbit_at, "A");
+  EXPECT_NEAR(a.orbit_share, a.largest_orbit / (0.6 * 2e-4), 1e-9);
   const SafetyResult b = CheckSafety(wild, Nothing(wild), {});
   EXPECT_FALSE(b.safe);
   EXPECT_FALSE(b.reason.empty());
