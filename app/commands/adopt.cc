@@ -33,7 +33,10 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
                e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "",
                e.table[k].unit == "-" ? std::string() : fmt::format(" {}", e.table[k].unit));
   const bool unseen = a.before.ratio_validate > 0;
-  fmt::print("error over noise (1: only noise is left):\n");
+  // the comparison shows a record as it is; the fits take off what may differ from record to record
+  const bool differ = a.adopted_case->nuisances.any();
+  fmt::print("error over noise (1: only noise is left){}:\n",
+             differ ? ", less what [nuisance] allows each record" : "");
   for (const LadderStep& s : a.ladder)
     fmt::print("  {:<34} fit {:8.3f}   unseen {:>8}\n", s.added.empty() ? "rig file" : s.added,
                s.ratio_fit, unseen ? fmt::format("{:.3f}", s.ratio_validate) : "-");
@@ -46,8 +49,8 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
   for (const std::string& s : a.before.left_out) fmt::print("{}\n", Wrapped("  " + s, 4));
   for (const std::string& w : a.fit.warnings) fmt::print("  warning: {}\n", w);
   if (!a.fit.converged) fmt::print("  warning: the fit did not converge\n");
-  fmt::print("compared again, all records: {:.3f} (was {:.3f})\nwritten {}\n", a.after.ratio,
-             a.before.ratio, output);
+  fmt::print("compared again, all records{}: {:.3f} (was {:.3f})\nwritten {}\n",
+             differ ? " with that" : "", a.after.ratio, a.before.ratio, output);
 }
 
 nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output,

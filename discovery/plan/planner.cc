@@ -69,15 +69,18 @@ void Planner::Prepare(TrialRecord* trial) const {
         kinds[k].column.Segment(0, kinds[k].column.rows());
 }
 
-bool Planner::View(const TrialRecord& trial, std::vector<RivalView>* views) const {
+std::optional<std::vector<RivalView>> Planner::Views(const TrialRecord& trial) const {
   const auto nothing = trial.model->Predict(nothing_);
   // a rotor that only the effect holds has nothing to compare with: the effect is all there is
   const std::vector<double> base =
       nothing ? *nothing : std::vector<double>(trial.model->size(), 0.0);
-  views->resize(rivals_.size());
-  for (std::size_t k = 0; k < rivals_.size(); ++k)
-    if (!ViewOf(trial, rivals_[k], base, &(*views)[k])) return false;
-  return true;
+  std::vector<RivalView> views;
+  for (const Rival& rival : rivals_) {
+    std::optional<RivalView> view = ViewOf(trial, rival, base);
+    if (!view) return {};
+    views.push_back(std::move(*view));
+  }
+  return views;
 }
 
 /// The candidate at the largest size that every rival survives.
@@ -114,16 +117,16 @@ std::optional<Planner::Scored> Planner::Score(const PlanCandidate& c, TriedScena
     if (!s.safety.safe && c.toml(size) == c.toml(1) && size < 1) return std::nullopt;
     if (!s.safety.safe) continue;
     Prepare(&trial);
-    std::vector<RivalView> views;
-    const bool held = View(trial, &views);
+    const std::optional<std::vector<RivalView>> views = Views(trial);
     runs_ += trial.model->runs;
-    if (!held) {
+    if (!views) {
       tried->refused = "the rotor is lost near one of the models";
       return std::nullopt;
     }
     s.least = kInfinity;
     for (const auto& [a, b] : Pairs()) {
-      s.probabilities.push_back(ProbabilityRight(SquaredDistances(trial, views[a], views[b])));
+      s.probabilities.push_back(
+          ProbabilityRight(SquaredDistances(trial, (*views)[a], (*views)[b])));
       s.least = std::min(s.least, s.probabilities.back());
     }
     tried->least_distance = DistanceOf(s.least);

@@ -53,22 +53,21 @@ TEST(TryPromise, WhatCannotBeToldIsNotPromised) {
   PromiseOptions options;
   options.draws = 4;
   options.first = 43 % made.records.size();
-  PlannedRecord planned;
-  const PromiseTrial trial = TryPromise(made, made.data, options, &planned);
+  const PromiseTrial trial = TryPromise(made, made.data, options);
   EXPECT_EQ(trial.left_out, "");
   EXPECT_EQ(trial.right, "iron-reluctance at B");
   EXPECT_NEAR(trial.before, 0.5, 0.05);
   EXPECT_LT(trial.promise, 0.95);
   EXPECT_LT(trial.after, 0.95);
-  EXPECT_FALSE(planned.measured.channels.empty());
+  ASSERT_TRUE(trial.planned);
+  EXPECT_FALSE(trial.planned->measured.channels.empty());
 }
 
 TEST(TryPromise, OneHiddenEffectIsNeeded) {
   PracticeCase two;
   two.name = "case-0002";
   two.kind = "two";
-  PlannedRecord none;
-  EXPECT_THROW(TryPromise(two, {}, {}, &none), InputError);
+  EXPECT_THROW(TryPromise(two, {}, {}), InputError);
 }
 
 }  // namespace

@@ -42,11 +42,7 @@ Rival RivalWith(const TrialRecord& trial, const EffectInstance& e, double precis
 struct Views {
   TrialRecord trial = HeldTrial();
   std::vector<double> nothing = *trial.model->Predict(Nothing(trial).hypothesis);
-  RivalView Of(const Rival& r) {
-    RivalView view;
-    EXPECT_TRUE(ViewOf(trial, r, nothing, &view));
-    return view;
-  }
+  RivalView Of(const Rival& r) { return ViewOf(trial, r, nothing).value(); }
 };
 
 // An offset b read in n rows, its number and its law known well: b/floor sqrt(n) standard
