@@ -86,7 +86,7 @@ if(NODE AND EXISTS ${CMAKE_SOURCE_DIR}/web/node_modules/typescript)
   add_test(NAME workbench_scripts COMMAND ${NODE} --test ${CMAKE_SOURCE_DIR}/tests/web/)
   add_test(NAME workbench_walk COMMAND ${NODE} ${CMAKE_SOURCE_DIR}/tests/workbench/walk.mjs $<TARGET_FILE:ambrig> ${CMAKE_SOURCE_DIR})
   set_tests_properties(workbench_walk PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 2400)
-  # Frames, zoom, first paint, weight and memory: with AMBRIG_DEAR=1 (nightly), and where nobody else keeps the cores busy.
+  # Frames, zoom, first paint, weight and memory: with AMBRIG_SLOW_TESTS=1 (nightly), and where nobody else keeps the cores busy.
   add_test(NAME workbench_budgets COMMAND ${NODE} ${CMAKE_SOURCE_DIR}/tests/workbench/budgets.mjs $<TARGET_FILE:ambrig> ${CMAKE_SOURCE_DIR})
   set_tests_properties(workbench_budgets PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600 RUN_SERIAL ON)
 endif()

@@ -2,11 +2,19 @@
 
 #include <cmath>
 
+#include "core/base/parameters.h"
 #include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 
 double GapOf(const BearingParameters& b) { return b.kind->stator(b).gap_offset[0]; }
+
+double GapOfAxis(const RigParameters& rig, const std::string& axis) {
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& own : b.Axes())
+      if (own == axis) return GapOf(b);
+  return kInfinity;
+}
 
 double ClearanceOf(const BearingParameters& b) {
   return b.auxiliary ? b.auxiliary->clearance : 0.5 * GapOf(b);

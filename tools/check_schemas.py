@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Validates what the commands write as JSON against schemas/. Run by ctest (json_schemas).
 
-    tools/check_schemas.py PROGRAM [--dear]
+    tools/check_schemas.py PROGRAM [--slow]
 
 Every schema must be one (JSON Schema, draft 2020-12) and be used here; every command that takes --json must have a schema. A schema
 allows no key that it does not name, so a new key of a document needs a line in its schema (and a new version of it, NAME-2.json, when an
-old reader would misread the document). --dear: also what takes minutes (explain, practice, detectors, ...)."""
+old reader would misread the document). --slow: also what takes minutes (explain, practice, detectors, ...)."""
 import json
 import os
 import pathlib
@@ -74,7 +74,7 @@ CHEAP = [
     ("campaign", "campaign small.toml -o campaign", {0}),
     ("campaign", "merge campaign -o merged", {0}),
 ]
-DEAR = [
+SLOW = [
     ("crosscheck", "crosscheck scenarios/library/drop_at_0rpm.toml", {0, 1}),
     ("commission", f"commission {RIG} -o learnt.toml", {0}),
     ("paper", "paper examples/paper", {0}),
@@ -134,11 +134,11 @@ def main():
         return 77
     program = str(pathlib.Path(sys.argv[1]).resolve())
     known, bad = schemas(jsonschema), []
-    dear = "--dear" in sys.argv
-    rows = CHEAP + (DEAR if dear else [])
+    slow = "--slow" in sys.argv
+    rows = CHEAP + (SLOW if slow else [])
     if not (pathlib.Path(program).parent / "ambrig_fmu.so").exists():  # not built with sanitizers (cmake/fmu.cmake)
         rows = [row for row in rows if "--fmu" not in row[1]]
-    used = {schema for schema, _, _ in CHEAP + DEAR}
+    used = {schema for schema, _, _ in CHEAP + SLOW}
     bad += [f"schemas/{name}: no command here writes it" for name in sorted(set(known) - used)]
     bad += [f"ambrig {name}: no schema of its JSON" for name in commands_with_json(program)
             if OTHER_NAME.get(name, name) not in known]
@@ -149,7 +149,7 @@ def main():
         (folder / "small.toml").write_text(CAMPAIGN)
         (folder / "later.toml").write_text(LATER)
         environment = dict(os.environ, AMBRIG_CACHE=str(folder / "cache"))
-        if dear:
+        if slow:
             subprocess.run([program, "hide", "sensor-gain", "--rig", RIG, "-o", "practice"], cwd=folder, check=True, capture_output=True)
         for number, (name, arguments, codes) in enumerate(rows):
             out = folder / f"out_{number}.json"

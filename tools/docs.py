@@ -7,7 +7,7 @@ A page says how a block of it was made:
         lines as the command printed them
     <!-- end of output -->
 
-"dear output of" is the same for commands that take more than a few seconds. Commands run in an empty
+"slow output of" is the same for commands that take more than a few seconds. Commands run in an empty
 folder that sees the project's folders scenarios, examples and tools, and `ambrig`. Lines that name
 a time of computing are left out. Pictures (docs/figures) are listed in docs/figures/sources.txt.
 
@@ -16,7 +16,7 @@ whether there are such tests, because a filter that matches none exits with 0.
 
   tools/docs.py build/release/ambrig              makes every block and picture (target `docs`)
   tools/docs.py build/release/ambrig --check      compares the cheap ones (ctest docs_blocks)
-  tools/docs.py build/release/ambrig --check --dear     all of them (nightly)
+  tools/docs.py build/release/ambrig --check --slow     all of them (nightly)
 """
 import argparse
 import difflib
@@ -30,7 +30,7 @@ import sys
 import tempfile
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-BLOCK = re.compile(r"(<!-- (dear )?output of: (.+?) -->\n)(.*?)(<!-- end of output -->)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- (slow )?output of: (.+?) -->\n)(.*?)(<!-- end of output -->)", re.DOTALL)
 TIMED = re.compile(r"computed at|\d simulations? in \d|^\s*written")
 FILTER = re.compile(r"test_(\w+) --gtest_filter=(?:'([^']*)'|([^\s`]+))")
 TEST = re.compile(r"^\s*(?:TYPED_)?TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
@@ -67,7 +67,7 @@ def check_page(page, ambrig, root, options):
 
     def remade(match):
         nonlocal made
-        if match[2] and options.check and not options.dear:
+        if match[2] and options.check and not options.slow:
             return match[0]
         made += 1
         return match[1] + output_of(match[3], ambrig, root) + match[5]
@@ -148,7 +148,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ambrig", type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("--check", action="store_true", help="change nothing, compare")
-    parser.add_argument("--dear", action="store_true", help="with --check: the long ones too")
+    parser.add_argument("--slow", action="store_true", help="with --check: the long ones too")
     parser.add_argument("--only", default="", help="pages whose name holds this")
     options = parser.parse_args()
     same, made = check_pictures() & check_filters(), 0

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What takes hours: everything under the sanitizers, clang-tidy over every file, the fuzz targets, the dear blocks of the docs.
+# What takes hours: everything under the sanitizers, clang-tidy over every file, the fuzz targets, the slow blocks of the docs.
 #
 #   tools/nightly.sh                     all of it, in build/nightly/*.log; ends with a table, exit code 1 where a step failed
 #   tools/nightly.sh asan fuzz           only these: release asan tsan tidy fuzz files scenarios docs
@@ -15,14 +15,14 @@ build() { cmake --preset "$1" && cmake --build --preset "$1" -j "$jobs"; }
 
 run_step() {
   case "$1" in
-    release) build release && AMBRIG_DEAR=1 ctest --preset release -j "$jobs" ;;
+    release) build release && AMBRIG_SLOW_TESTS=1 ctest --preset release -j "$jobs" ;;
     asan) build asan && ctest --preset asan -j "$jobs" -E "workbench_walk|workbench_budgets|docs_|planted_change" ;;
     tsan) build tsan && ctest --preset tsan -R 'Threads|Jobs|SameB|Determinism|Serve|EventLog|RecordReader|Campaign|Journal' ;;
     tidy) build tidy ;;
     fuzz) build fuzz && python3 tools/fuzz_readers.py --runs "$runs" --jobs "$jobs" ;;
     files) build asan && python3 tools/fuzz.py build/asan/ambrig --runs "$((runs / 500))" ;;
     scenarios) build release && python3 tools/random_scenarios.py build/release/ambrig -n "$((runs / 10))" -j "$jobs" ;;
-    docs) build release && AMBRIG_DEAR=1 ctest --preset release -R docs_ ;;
+    docs) build release && AMBRIG_SLOW_TESTS=1 ctest --preset release -R docs_ ;;
     *) echo "nightly: unknown step $1 (allowed: ${all[*]})" >&2; return 2 ;;
   esac
 }

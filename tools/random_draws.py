@@ -5,7 +5,7 @@ and `ambrig effects` name for it; kinds (bearings, modulations, modes, detectors
 faults, excitations, effects) are drawn among all that there are.
 
 A draw is cheap on purpose: `within_cost` bounds what it computes (samples of all coils, and pieces
-of a period in contact) for 99 of 100 draws. The others are as dear as they come, up to a bound that
+of a period in contact) for 99 of 100 draws. The others are as slow as they come, up to a bound that
 one process still ends within seconds.
 """
 import json
@@ -18,7 +18,7 @@ from random_tables import Tables, anywhere, draw_far, number
 __all__ = ["Tables", "draw_far", "draw_rig", "draw_scenario", "toml"]
 
 WARM_UP = {"levitated": 0.25, "clamped": 0.03, "resting": 0.0}  # s before t = 0 (simulation/sampled/start_state.h)
-CHEAP, DEAR = 4e5, 3e7  # samples of a coil, warm-up included: some 2 and 150 ms
+CHEAP, SLOW = 4e5, 3e7  # samples of a coil, warm-up included: some 2 and 150 ms
 OF_ENGINE = {"switching": 1.0, "averaged": 0.2, "reference": 0.05}  # periods of equal computing
 
 
@@ -26,8 +26,8 @@ OF_ENGINE = {"switching": 1.0, "averaged": 0.2, "reference": 0.05}  # periods of
 def within_cost(rng, rig, parts, state, far, fidelity):
     """Lowers the switching frequency and the stiffness of contacts until a run is cheap (docstring)."""
     amplifier, rotor = rig["amplifier"], rig["rotor"]
-    dear = rng.random() < 0.01
-    most = (DEAR if dear else CHEAP) * OF_ENGINE[fidelity]
+    slow = rng.random() < 0.01
+    most = (SLOW if slow else CHEAP) * OF_ENGINE[fidelity]
     if far.share > 0.1 and state != "clamped":
         most *= 0.2  # a rotor that is lost in its bearings takes up to 400 pieces a period
     per_period = amplifier.get("adc_samples_per_period", 18) * (4 + len(parts.coils))
@@ -47,7 +47,7 @@ def within_cost(rng, rig, parts, state, far, fidelity):
     for bearing in rig["bearings"].values():
         if "auxiliary" not in bearing:
             continue
-        if not dear and rng.random() < 0.95:
+        if not slow and rng.random() < 0.95:
             bearing["auxiliary"]["friction"] = 0.0  # a rotor pressed deep into it slides in 400 pieces a period
         mobility = 1 / rotor.get("mass", 1.0) + bearing.get("z", 0.0) ** 2 / rotor.get("inertia_transverse", math.inf)
         limit(bearing["auxiliary"], "stiffness", max(1.0, (pieces * 0.02 * pwm) ** 2 / mobility))

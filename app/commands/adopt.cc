@@ -8,6 +8,7 @@
 #include "app/commands/effect_names.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/text/screen.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
@@ -32,15 +33,24 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
                e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "",
                e.table[k].unit == "-" ? std::string() : fmt::format(" {}", e.table[k].unit));
   const bool unseen = a.before.ratio_validate > 0;
-  fmt::print("error over noise (1: only noise is left):\n");
+  // the comparison shows a record as it is; the fits take off what may differ from record to record
+  const bool differ = a.adopted_case->nuisances.any();
+  fmt::print("error over noise (1: only noise is left){}:\n",
+             differ ? ", less what [nuisance] allows each record" : "");
   for (const LadderStep& s : a.ladder)
     fmt::print("  {:<34} fit {:8.3f}   unseen {:>8}\n", s.added.empty() ? "rig file" : s.added,
                s.ratio_fit, unseen ? fmt::format("{:.3f}", s.ratio_validate) : "-");
   if (!unseen) fmt::print("  no record of the case has use = \"validate\": all were fitted\n");
+  for (const std::string& s : a.parameter_shifts)
+    fmt::print("{}\n", Wrapped("  parameter " + s +
+                                   " from the rig file: measure it, or look for what "
+                                   "it stands in for (ambrig explain)",
+                               4));
+  for (const std::string& s : a.before.left_out) fmt::print("{}\n", Wrapped("  " + s, 4));
   for (const std::string& w : a.fit.warnings) fmt::print("  warning: {}\n", w);
   if (!a.fit.converged) fmt::print("  warning: the fit did not converge\n");
-  fmt::print("compared again, all records: {:.3f} (was {:.3f})\nwritten {}\n", a.after.ratio,
-             a.before.ratio, output);
+  fmt::print("compared again, all records{}: {:.3f} (was {:.3f})\nwritten {}\n",
+             differ ? " with that" : "", a.after.ratio, a.before.ratio, output);
 }
 
 nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output,
@@ -50,6 +60,7 @@ nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output
   json["rig"] = output;
   if (!new_case.empty()) json["case"] = new_case;
   json["converged"] = a.fit.converged;
+  json["parameter_shifts"] = a.parameter_shifts;
   json["warnings"] = a.fit.warnings;
   for (const LadderStep& s : a.ladder)
     json["ladder"].push_back(
@@ -98,7 +109,7 @@ void AddAdopt(CLI::App& app, Work& work) {
   command->add_option("--target", options->target,
                       "target of the effect (default: the one with the best fit)");
   command
-      ->add_option("-o,--output", options->output,
+      ->add_option("-o,--out,--output", options->output,
                    "new rig file (default: RIG_adopted.toml beside the rig)")
       ->check(OutputFile());
   command

@@ -28,7 +28,8 @@ struct AnalyzeCommand {
   int measured = 0;
 };
 
-double RpmOption(const std::string& option, const std::string& text) {
+double RpmOption(const std::string& option, const std::string& given) {
+  const std::string text = SpeedIn(given, "rpm");
   std::size_t used = 0;
   double value = -1;
   try {
@@ -125,7 +126,9 @@ void AddAnalyze(CLI::App& app, Work& work) {
       "analyze", "rotor dynamics and control margins: modes, Campbell, sensitivity, unbalance");
   command->add_option("rig", c->rig, "rig file, or a shaft on supports: [rotor] or ROSS's file")
       ->required();
-  command->add_option("--speed", c->speed, "operating speed, or lowest:highest [rpm]")
+  command
+      ->add_option("--speed", c->speed,
+                   "operating speed, or lowest:highest [rpm], or with a unit: 50Hz, 314rad/s")
       ->capture_default_str();
   command
       ->add_option("--max-speed", c->fastest,
@@ -144,7 +147,8 @@ void AddAnalyze(CLI::App& app, Work& work) {
   c->shaft.AddTo(*command);
   command->add_option(
       "-o,--out", c->out,
-      "folder for NAME.analysis.json and .html; of a rig.toml NAME is its folder.rig");
+      "folder for NAME.analysis.json and .html (NAME: the rig file's; FOLDER.rig for a file called "
+      "rig.toml)");
   c->common.AddTo(*command);
   command->footer(
       "Examples:\n"

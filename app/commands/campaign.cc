@@ -180,7 +180,7 @@ void AddCampaign(CLI::App& app, Work& work) {
   command->add_option(
       "-o,--out", options->out,
       "folder of journal.txt, table.csv, report.html (default: out/NAME of the file)");
-  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")
+  command->add_option("-j,--jobs", options->jobs, "runs at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--shard", options->shard,
                       "only part i of n of the runs, e.g. 2/4 (then: ambrig merge)");
@@ -199,7 +199,7 @@ void AddCampaign(CLI::App& app, Work& work) {
       ->check(NumberIn(0.1, 3600, "s"))
       ->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
-  command->add_flag("--long", options->long_runs, "also what will take more than a day");
+  command->add_flag("--long", options->long_runs, "start also when the estimate exceeds a day");
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n"
@@ -219,7 +219,8 @@ void AddCampaign(CLI::App& app, Work& work) {
 
 void AddMerge(CLI::App& app, Work& work) {
   auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = app.add_subcommand("merge", "shards of a campaign as one table and report");
+  CLI::App* command =
+      app.add_subcommand("merge", "combine shards of a campaign into one table and report");
   command->add_option("folder", options->folders, "folders of the shards")->required();
   command->add_option("-o,--out", options->out, "folder of the merged campaign")->required();
   command->add_flag("--partial", options->partial, "merge even when runs are missing");

@@ -137,7 +137,7 @@ int RunChannels(const ChannelsCommand& o) {
 
 void AddChannels(CLI::App& app, Work& work) {
   auto o = std::make_shared<ChannelsCommand>();
-  CLI::App* command = app.add_subcommand("channels", "what a measured file holds");
+  CLI::App* command = app.add_subcommand("channels", "list what a measured file holds");
   command->add_option("FILE", o->files, "files of instruments (docs/guide/records.md)")->required();
   o->common.AddTo(*command);
   command->footer(

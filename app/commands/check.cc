@@ -253,7 +253,7 @@ void AddCheck(CLI::App& app, Work& work) {
   command->add_option("--rows", options->baseline.rows, "rows that --accept stores at most")
       ->check(CLI::Range(2, 1000000))
       ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "scenarios at the same time (default: all cores)")
+  command->add_option("-j,--jobs", options->jobs, "scenarios at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   options->common.AddTo(*command);
   command->footer(

@@ -62,14 +62,18 @@ int RunCommission(CommissionCommand c) {
 void AddCommission(CLI::App& app, Work& work) {
   auto c = std::make_shared<CommissionCommand>();
   CLI::App* command = app.add_subcommand(
-      "commission", "let the fault detection learn a healthy rig; writes RIG.commissioning.toml");
+      "commission",
+      "identify the healthy rig for the fault detection; writes RIG.commissioning.toml");
   command->add_option("rig", c->rig, "rig file (TOML); the run is made with its effects")
       ->required();
   command->add_option("-o,--out", c->out, "file to write (default: RIG.commissioning.toml)");
-  command->add_option("--duration", c->plan.duration, "of the run [s]")
+  command->add_option("--duration", c->plan.duration, "duration of the run [s]")
       ->check(NumberIn(0.1, 10, "s"))
       ->capture_default_str();
-  command->add_option("--speed", c->plan.speed, "at its end [rad/s]")
+  command
+      ->add_option("--speed", c->plan.speed,
+                   "speed at the end of the run [rad/s], or with its unit: 3000rpm, 50Hz")
+      ->transform(SpeedUnit("rad/s"))
       ->check(NumberIn(0, 1e5, "rad/s"))
       ->capture_default_str();
   command->add_option("--current", c->plan.current, "amplitude of a coil's three tones, each [A]")
@@ -78,16 +82,16 @@ void AddCommission(CLI::App& app, Work& work) {
   command
       ->add_option("--potential", c->plan.potential,
                    "amplitude of the rotor potential's chirp over the bias current")
-      ->check(NumberIn(0, 0.5, "of one"))
+      ->check(NumberIn(0, 0.5, ""))
       ->capture_default_str();
   command->add_option("--circle", c->plan.circle, "radius of the small whirl over the clearance")
-      ->check(NumberIn(0, 0.9, "of one"))
+      ->check(NumberIn(0, 0.9, ""))
       ->capture_default_str();
   command->add_option("--chirp", c->plan.chirp, "force of the chirp over the controller's f_max")
-      ->check(NumberIn(0, 1, "of one"))
+      ->check(NumberIn(0, 1, ""))
       ->capture_default_str();
   command->add_option("--pulse", c->plan.pulse, "largest force over the controller's f_max")
-      ->check(NumberIn(0, 1, "of one"))
+      ->check(NumberIn(0, 1, ""))
       ->capture_default_str();
   c->common.AddTo(*command);
   command->footer(fmt::format(

@@ -160,7 +160,8 @@ void AddCrosscheck(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
       "  ambrig crosscheck scenarios/library/drop_at_0rpm.toml --seeds 3\n"
-      "Apart: from when on the centres are further apart than a share of the clearance.\n"
+      "Apart: first instant at which the centres differ by more than 5 % of the\n"
+      "clearance.\n"
       "Omega c: speed of a synchronous whirl round the whole clearance c;\n"
       "sqrt(2 g c): of a free fall through it. Exit code 1 when a verdict differs.");
   sub->callback([command, &work] { work = [command] { return Crosscheck(*command); }; });

@@ -248,7 +248,7 @@ void AddDesign(CLI::App& app, Work& work) {
   command->add_option(
       "-o,--out", options->out,
       "folder of journal, table.csv, study.json, report.html (default: out/NAME of the file)");
-  command->add_option("-j,--jobs", options->jobs, "threads (default: all cores)")
+  command->add_option("-j,--jobs", options->jobs, "runs at the same time (default: all cores)")
       ->check(CLI::Range(0, 1024));
   command
       ->add_option("--point", options->point,

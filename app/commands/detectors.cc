@@ -100,7 +100,7 @@ void AddDetectors(CLI::App& app, Work& work) {
   command->add_option(
       "-o,--out", options->out,
       "folder of journal.txt, table.csv, curves, report.html (default: out/NAME of the file)");
-  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")
+  command->add_option("-j,--jobs", options->jobs, "runs at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);

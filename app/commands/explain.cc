@@ -19,6 +19,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
 #include "discovery/case/test_records.h"
+#include "discovery/decision/second_round.h"
 #include "discovery/explain/explain.h"
 #include "effects/effect.h"
 
@@ -143,7 +144,7 @@ void PrintExplanation(const Explanation& e, bool unseen) {
   if (!unseen) fmt::print("no record of the case has use = \"validate\": all were fitted\n");
   if (!e.ranking.empty()) PrintRanking(e.ranking, e.ranking.size(), unseen);
   if (!e.second_round.empty()) {
-    fmt::print("one more effect, after the first was adopted:\n");
+    PrintWrapped(SecondRoundTitle(e), 2);
     PrintRanking(e.second_round, 3, unseen);
   }
   fmt::print("verdict: {}\n",
@@ -246,7 +247,7 @@ void AddExplain(CLI::App& app, Work& work) {
   command->add_option("--candidates", options->candidates, "effects fitted in full per round")
       ->capture_default_str()
       ->check(CLI::Range(1, 60));
-  command->add_flag("--long", options->long_runs, "also what will take more than a day");
+  command->add_flag("--long", options->long_runs, "start also when the estimate exceeds a day");
   command->add_flag("--verbose", options->verbose, "print every step with its time to stderr");
   command
       ->add_option("--law", options->law,
@@ -264,7 +265,7 @@ void AddExplain(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig explain examples/rub/case.toml --json answer.json --html answer.html\n"
       "  ambrig explain examples/rub/case.toml --law law.toml --resume work\n"
-      "The second goes on after Ctrl-C when it is called again; law.toml is a\n"
+      "Re-run the second command after Ctrl-C to resume; law.toml is a\n"
       "candidate law to append to the rig file. Intermediate results are written to\n"
       "the JSON file as they come (verdict \"unfinished\").");
   command->callback([options, &work] { work = [options] { return RunExplain(*options); }; });

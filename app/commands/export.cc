@@ -71,7 +71,7 @@ nlohmann::ordered_json ExportTheFmu(const ExportOptions& o) {
   FmuExport wanted = o.fmu;
   wanted.rig = o.rig;
   const nlohmann::ordered_json made = ExportFmu(wanted);
-  fmt::print("{}: FMI {} co-simulation, step {} s\n  {} parameters, {} inputs, {} outputs\n",
+  fmt::print("{}: FMI {} co-simulation, step {:.9g} s\n  {} parameters, {} inputs, {} outputs\n",
              o.fmu.file, o.fmu.fmi, made["step"].get<double>(), made["parameters"].get<int>(),
              made["inputs"].get<int>(), made["outputs"].get<int>());
   return made;
@@ -83,7 +83,7 @@ int Export(const ExportOptions& o) {
   const std::string header = o.controller_c.empty() ? "" : HeaderBeside(o.controller_c);
   RefuseOneFileTwice({o.controller_c, header, o.fmu.file, o.common.json, o.common.html});
   if (o.controller_c.empty() && o.fmu.file.empty())
-    throw InputError("export: says not what to write, allowed: --fmu FILE, --controller-c FILE");
+    throw InputError("export: nothing to write, allowed: --fmu FILE or --controller-c FILE");
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["rig"] = o.rig;
   if (!o.controller_c.empty()) json["controller_c"] = ExportController(rig, o);

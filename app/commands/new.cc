@@ -252,8 +252,8 @@ int MakeBench(NewCommand o) {
 
 void AddNew(CLI::App& app, Work& work) {
   auto o = std::make_shared<NewCommand>();
-  CLI::App* command =
-      app.add_subcommand("new", "a bench of your own: numbers and a record in, files out");
+  CLI::App* command = app.add_subcommand(
+      "new", "write rig, scenario and case files from some ten numbers and records of a bench");
   std::string names;
   for (const BenchTemplate& t : BenchTemplates())
     names += (names.empty() ? "" : ", ") + std::string(t.name);

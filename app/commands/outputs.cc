@@ -13,6 +13,7 @@
 #include "core/base/inputs_read.h"
 #include "core/base/json_file.h"
 #include "core/base/read_file.h"
+#include "core/record/units.h"
 
 namespace ambrig {
 
@@ -51,7 +52,8 @@ std::string WithoutHashes(const std::string& text) {
 }  // namespace
 
 CLI::Validator NumberIn(double lo, double hi, const std::string& unit) {
-  const std::string allowed = fmt::format("{:g} to {:g} {}", lo, hi, unit);
+  const std::string allowed =
+      fmt::format("{:g} to {:g}{}{}", lo, hi, unit.empty() ? "" : " ", unit);
   return CLI::Validator(
       [lo, hi, allowed](std::string& text) {
         std::size_t used = 0;
@@ -66,6 +68,33 @@ CLI::Validator NumberIn(double lo, double hi, const std::string& unit) {
                    : fmt::format("{}, allowed: {}", text, allowed);
       },
       allowed, "NUMBER");
+}
+
+std::string SpeedIn(const std::string& text, const std::string& unit) {
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    return text;
+  }
+  used = text.find_first_not_of(' ', used);
+  if (used == std::string::npos) return text;
+  const double factor = UnitFactor(text.substr(used), "rad/s", text) / UnitFactor(unit, "rad/s");
+  return fmt::format("{:.15g}", value * factor);
+}
+
+CLI::Validator SpeedUnit(const std::string& unit) {
+  return CLI::Validator(
+      [unit](std::string& text) {
+        try {
+          text = SpeedIn(text, unit);
+        } catch (const InputError& e) {
+          return std::string(e.what());
+        }
+        return std::string();
+      },
+      "", "SPEED");
 }
 
 CLI::Validator OutputFile() {

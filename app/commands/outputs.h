@@ -8,6 +8,12 @@ namespace ambrig {
 /// Of an option that takes a number: from lo to hi, never nan.
 CLI::Validator NumberIn(double lo, double hi, const std::string& unit);
 
+/// A speed that names its unit ("3000rpm", "50 Hz", "314rad/s") as a number in `unit`; other texts as they are.
+/// @throws InputError for a unit that is none of a speed
+std::string SpeedIn(const std::string& text, const std::string& unit);
+/// The same for an option: a transform before its check.
+CLI::Validator SpeedUnit(const std::string& unit);
+
 /// Of an option that names a file to write: it is no folder, and its folder can be written.
 CLI::Validator OutputFile();
 

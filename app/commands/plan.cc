@@ -53,9 +53,10 @@ void PrintPlan(const Plan& plan, const std::string& output) {
   fmt::print("{:<34} {:>6} {:>14} {:>14}\n", "scenario", "size", "distance [sd]", "orbit [um]");
   for (std::size_t k = 0; k < plan.tried.size() && k < 10; ++k) {
     const TriedScenario& t = plan.tried[k];
-    fmt::print("{:<34} {:>6.2g} {:>14} {:>14}\n", t.title, t.size,
-               t.refused.empty() ? fmt::format("{:.1f}", t.least_distance) : "-",
-               t.largest_orbit > 0 ? fmt::format("{:.1f}", 1e6 * t.largest_orbit) : "-");
+    fmt::print(
+        "{:<34} {:>6.2g} {:>14} {:>14}\n", t.title, t.size,
+        t.refused.empty() ? fmt::format("{:.1f}", t.least_distance) : "-",
+        t.largest_orbit > 0 ? fmt::format("{:.1f} {}", 1e6 * t.largest_orbit, t.orbit_at) : "-");
     if (!t.refused.empty()) fmt::print("{}\n", Wrapped("    not safe: " + t.refused, 4));
   }
   fmt::print(
@@ -143,9 +144,11 @@ void AddPlan(CLI::App& app, Work& work) {
                    "explain leaves open)")
       ->type_name("EFFECT");
   command
-      ->add_option("--speed", options->speed,
-                   "with a rig file: highest speed that the rig may turn at [Hz] (default: it does "
-                   "not turn)")
+      ->add_option(
+          "--speed", options->speed,
+          "with a rig file: highest speed that the rig may turn at [Hz], or with its unit: "
+          "3000rpm (default: it does not turn)")
+      ->transform(SpeedUnit("Hz"))
       ->check(NumberIn(0, 1e5, "Hz"));
   command->add_flag("--clamp", options->clamp,
                     "with a rig file: the rotor can be held, with load cells");
@@ -157,7 +160,7 @@ void AddPlan(CLI::App& app, Work& work) {
       ->capture_default_str()
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
   command
-      ->add_option("-o,--output", options->output,
+      ->add_option("-o,--out,--output", options->output,
                    "scenario file (default: next_record.toml beside the file)")
       ->check(OutputFile());
   options->common.AddTo(*command);

@@ -220,8 +220,9 @@ int RunPractice(PracticeCommand o) {
 void AddPractice(CLI::App& app, Work& work) {
   auto options = std::make_shared<PracticeCommand>();
   options->setting.cases = 20;
-  CLI::App* command = app.add_subcommand(
-      "practice", "explain cases with laws of other forms: are its probabilities true?");
+  CLI::App* command = app.add_subcommand("practice",
+                                         "test the probabilities of explain on synthetic cases "
+                                         "whose laws differ from the catalogue's");
   command->add_option("rig", options->rigs, "rig files without effects")->required();
   command->add_option("-o,--out", options->out, "folder of cases, journal and report.html")
       ->capture_default_str();
@@ -234,7 +235,7 @@ void AddPractice(CLI::App& app, Work& work) {
   command->add_option("--shard", options->shard,
                       "only part i of n of the cases, e.g. 2/4, with a journal of its own in the "
                       "same folder");
-  command->add_option("--jobs", options->jobs, "cases at a time; each uses all cores")
+  command->add_option("-j,--jobs", options->jobs, "cases at a time; each uses all cores")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   CLI::Option* make =

@@ -104,9 +104,9 @@ PromiseTrial RunTrial(const PracticeSetting& setting, std::size_t number, Progre
     progress.Update(f, made.name + ": " + text);
   };
   const auto folder = std::filesystem::path(setting.folder) / made.name;
-  PlannedRecord planned;
-  const PromiseTrial trial = TryPromise(made, ReadCase(folder.string()), options, &planned);
-  if (trial.left_out.empty()) WriteNextRecord(made, options.first, std::move(planned), folder);
+  PromiseTrial trial = TryPromise(made, ReadCase(folder.string()), options);
+  if (trial.planned) WriteNextRecord(made, options.first, std::move(*trial.planned), folder);
+  trial.planned.reset();  // it stands in the folder now
   return trial;
 }
 

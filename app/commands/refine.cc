@@ -83,7 +83,7 @@ void AddRefine(CLI::App& app, Work& work) {
                    "effect to refine, EFFECT or EFFECT@TARGET: " + RefinableEffects())
       ->required();
   command
-      ->add_option("-o,--output", options->output,
+      ->add_option("-o,--out,--output", options->output,
                    "new rig file (default: RIG_refined.toml beside the rig)")
       ->check(OutputFile());
   command

@@ -259,18 +259,18 @@ void AddRun(CLI::App& app, Work& work) {
                                            "campaign file of which one row is repeated")
                               ->type_name("FILE");
   command->add_option("--row", options->row, "run of that campaign, from 0")->needs(campaign);
-  command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")
+  command->add_option("-o,--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")
       ->capture_default_str();
   command
       ->add_option("--rate", options->rate,
                    "rows of the record per second [Hz] (default: the scenario's)")
       ->check(NumberIn(1e-3, 1e9, "Hz"));
-  command->add_flag("--long", options->long_runs, "also runs that will take more than an hour");
+  command->add_flag("--long", options->long_runs, "start also when the estimate exceeds an hour");
   command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")
       ->capture_default_str();
   command
       ->add_flag("--keep-going", options->keep_going,
-                 "a scenario that is refused is told, the others are run")
+                 "report a scenario that is refused and run the others")
       ->excludes(campaign);
   command->add_flag("--csv", options->csv, "also write the record as NAME.csv");
   command->add_flag("--no-report", options->no_html, "no NAME.html");

@@ -75,11 +75,11 @@ double RunSeconds(const RigParameters& rig, const Scenario& scenario, Fidelity f
   // The reference rig, 20 coils at 25 kHz with 18 samples a period, runs at six times real time.
   const double samples = rig.amplifier.switching_frequency * rig.samples_per_period();
   // Integrated with error control it takes ten times real time, with averaged voltages half of it.
-  const double dear = fidelity == Fidelity::kReference  ? 60
+  const double slow = fidelity == Fidelity::kReference  ? 60
                       : fidelity == Fidelity::kAveraged ? 3
                                                         : 1;
   return (scenario.duration + WarmUp(scenario)) * samples * (4 + static_cast<double>(coils)) *
-         (dear / 6.0) / (25000.0 * 18 * 24);
+         (slow / 6.0) / (25000.0 * 18 * 24);
 }
 
 double FreeMemory() {

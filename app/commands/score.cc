@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 struct ScoreCommand {
   CommonOptions common;
   std::vector<std::string> paths;
-  std::string answers, output = "judged";
+  std::string answers, output = "scored";
   bool again = false;
 };
 

@@ -116,7 +116,7 @@ int WatchFolders(WatchCommand o) {
 void AddWatch(CLI::App& app, Work& work) {
   auto o = std::make_shared<WatchCommand>();
   CLI::App* command = app.add_subcommand(
-      "watch", "examine every new record of a folder; what leaves its band is told");
+      "watch", "examine every new record of a folder and report what left its band");
   command->add_option("case", o->watch.case_file, "case file (TOML) of the rig as it is known")
       ->required();
   command->add_option("folder", o->watch.folder, "folder that a logger writes records to")
@@ -143,7 +143,7 @@ void AddWatch(CLI::App& app, Work& work) {
       "  ambrig watch practice/case.toml logger --no-explain --journal fast.watch\n"
       "For cron: exit code 1 when a new record left its band, has wrong data or was\n"
       "refused; with --every it goes on by itself. A file of the folder repeats the\n"
-      "record of the case whose name its own begins with: hover-0412.csv is as\n"
+      "record of the case whose name its own begins with: hover-0412.csv repeats\n"
       "hover.csv; with a case of one record every file does. docs/guide/watch.md.");
   command->callback([o, &work] { work = [o] { return WatchFolders(*o); }; });
 }

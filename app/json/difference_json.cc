@@ -23,10 +23,12 @@ std::string WithUnit(double value, const std::string& unit) {
 
 std::string LineOf(const ChannelDifference& c) {
   if (c.rows == 0) return fmt::format("{}: {}", c.channel, VerdictText(c.verdict));
+  const std::string worst = c.worst > 0 ? fmt::format(", worst {} at {:.6g} ms",
+                                                      WithUnit(c.worst, c.unit), c.worst_at * 1e3)
+                                        : "";  // of what is no number
   return fmt::format(
-      "{}: {} from {:.6g} ms, {} of {} rows, worst {} at {:.6g} ms{}", c.channel,
-      VerdictText(c.verdict), c.first * 1e3, c.beyond, c.rows, WithUnit(c.worst, c.unit),
-      c.worst_at * 1e3,
+      "{}: {} from {:.6g} ms, {} of {} rows{}{}", c.channel, VerdictText(c.verdict), c.first * 1e3,
+      c.beyond, c.rows, worst,
       c.allowed > 0 ? fmt::format(" (allowed {})", WithUnit(c.allowed, c.unit)) : "");
 }
 

@@ -185,6 +185,7 @@ Json ExplainJson(const Explanation& e) {
               {"nominal_ratio_validate", Number(e.nominal_ratio_validate)},
               {"confusable", confusable},
               {"second_round", RankingJson(e.second_round)},
+              {"second_round_beside", e.second_beside},
               {"ladder", ladder},
               {"screened", screened},
               {"parameters", ParametersJson(e.final_fit)},

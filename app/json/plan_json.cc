@@ -16,6 +16,7 @@ nlohmann::ordered_json PlanJson(const Plan& plan, const std::string& scenario) {
     tried.push_back({{"title", t.title},
                      {"size", t.size},
                      {"largest_orbit", t.largest_orbit},
+                     {"orbit_at", t.orbit_at},
                      {"least_distance", t.least_distance},
                      {"refused", t.refused}});
   return {{"scenario", scenario},

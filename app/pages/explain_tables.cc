@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/text/format.h"
+#include "discovery/decision/second_round.h"
 
 namespace ambrig {
 
@@ -26,12 +27,14 @@ bool Adopted(const Explanation& e, const EffectInstance& effect) {
 }
 
 std::string SecondCaption(const Explanation& e) {
-  const bool taken = std::ranges::any_of(
-      e.second_round, [&](const RankedEffect& r) { return Adopted(e, r.effect); });
-  return std::string("Candidates for one more effect beside what was found before. ") +
-         (taken
-              ? "The green one met the acceptance criterion as well."
-              : "None meets the acceptance criterion; the improvement may be due to overfitting.");
+  std::string beside;
+  for (const std::string& name : e.second_beside) beside += (beside.empty() ? "" : " and ") + name;
+  return fmt::format("Candidates for one more effect beside {}. {}",
+                     beside.empty() ? "what was found before" : beside,
+                     SecondRoundAdopted(e)
+                         ? "The green one met the acceptance criterion as well."
+                         : "None meets the acceptance criterion; the improvement may be due to "
+                           "overfitting, and none has a probability.");
 }
 
 void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,

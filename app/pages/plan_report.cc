@@ -33,10 +33,11 @@ void AddTried(HtmlReport& report, const Plan& plan) {
       titles.push_back(t.title);
       distances.push_back(t.least_distance);
     }
-    rows.push_back({t.title, fmt::format("{:g}", t.size),
-                    t.refused.empty() ? fmt::format("{:.1f}", t.least_distance) : "-",
-                    t.largest_orbit > 0 ? fmt::format("{:.1f}", 1e6 * t.largest_orbit) : "-",
-                    t.refused.empty() ? Cell("yes", "ok") : Cell(t.refused, "warn")});
+    rows.push_back(
+        {t.title, fmt::format("{:g}", t.size),
+         t.refused.empty() ? fmt::format("{:.1f}", t.least_distance) : "-",
+         t.largest_orbit > 0 ? fmt::format("{:.1f} at {}", 1e6 * t.largest_orbit, t.orbit_at) : "-",
+         t.refused.empty() ? Cell("yes", "ok") : Cell(t.refused, "warn")});
   }
   Figure f = MakeFigure(
       "Least distance between any two of the names, in standard deviations, whatever their numbers "

@@ -57,7 +57,10 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
                                                               "k", "M", "G", "T"};
   // Rounded first, so that 999.96e-6 becomes 1 mm and not 1000 um.
   const double rounded = std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr);
-  const double group = std::clamp(std::floor(std::log10(std::abs(rounded)) / 3), -4.0, 4.0);
+  const double own = std::floor(std::log10(std::abs(rounded)) / 3),
+               group = std::clamp(own, -4.0, 4.0);
+  if (std::abs(own) > 5)  // far beyond the prefixes
+    return fmt::format("{:.{}g}", value, digits) + gap + std::string(unit);
   return PlainNumber(rounded / std::pow(10.0, 3 * group), digits) + gap +
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);
 }

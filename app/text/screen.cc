@@ -9,6 +9,9 @@
 namespace ambrig {
 namespace {
 
+constexpr std::string_view kMendMark =
+    "to mend it: ";  // of FaultText, before a line of the case file
+
 void ReplaceAll(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
@@ -41,6 +44,10 @@ std::size_t ScreenWidth(std::string_view text) {
 }
 
 std::string Wrapped(std::string_view given, std::size_t indent, std::size_t columns) {
+  // a line to paste is not broken
+  if (const std::size_t mend = given.find(kMendMark); mend != std::string_view::npos && mend > 0)
+    return Wrapped(given.substr(0, mend), indent, columns) + '\n' + std::string(indent, ' ') +
+           std::string(given.substr(mend));
   std::string text(given);
   std::ranges::replace(text, '\n', ' ');
   std::string out;

@@ -13,6 +13,16 @@ namespace ambrig {
 /// What kind of measurement a record of a case is; it decides who predicts it (record_predictor.h).
 enum class RecordKind { kTime, kFrf, kStatic };
 
+/// What a case says of a trace of a file of frequency responses: which response of the rig it is, and what its instrument
+/// did to it. A value v of the file at f [Hz] is gain · conj?(|v| e^{i phase_gain arg v}) · e^{2 pi i f late} in `unit`.
+struct TraceMapping {
+  std::string response, trace, unit, coherence, excited;
+  double gain = 1;
+  double phase_gain = 1;   // 180/pi: its phases are radians that were taken for degrees
+  double late = 0;         // [s]
+  bool conjugate = false;  // its phases have the opposite sign
+};
+
 struct RigResponse {
   ResponsePoint output, input;
   ResponsePoint excited;                     // the port that was driven; the input where it is one
@@ -21,13 +31,13 @@ struct RigResponse {
   // of the real and of the imaginary part [SI]; only in proportion where not `sd_known`
   std::vector<double> sd;
   bool sd_known = false;
-  std::string trace = {}, file_unit = {};  // what the case says of the file
-  double gain = 1;                         // likewise
+  TraceMapping from = {};  // what the case says of the file
   std::string name() const { return output.name + "/" + input.name; }
 };
 
 struct ResponseTable {
   std::vector<double> frequency;  // [Hz]
+  double frequency_gain = 1;      // over the file's
   std::vector<RigResponse> responses;
 };
 

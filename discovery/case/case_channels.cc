@@ -107,6 +107,11 @@ Record MapChannels(const Record& raw, const std::map<std::string, ChannelMapping
         (it == mapping.end() ? 1 : it->second.gain);
     const double offset = it == mapping.end() ? 0 : it->second.offset;
     for (double& v : converted.samples) v = v * factor + offset;
+    const double length = static_cast<double>(raw.rows()) / raw.rate;
+    if (it != mapping.end() && it->second.late != 0 && !(std::abs(it->second.late) < length))
+      table.Fail("channels",
+                 fmt::format("\"{}\": late = {:g} s, allowed: less than the {:g} s of {}", channel,
+                             it->second.late, length, table.String("data")));
     if (it != mapping.end() && it->second.late != 0)
       MoveEarlier(converted.samples, it->second.late * raw.rate);
     sources[channel] = {column, unit, factor};

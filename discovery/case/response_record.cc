@@ -8,6 +8,7 @@
 
 #include "core/base/coil_name.h"
 #include "core/base/toml_checked.h"
+#include "core/math/constants.h"
 #include "core/record/column_names.h"
 #include "core/record/read_record.h"
 #include "core/record/units.h"
@@ -23,12 +24,7 @@ constexpr double kHoverSeconds = 1;  // of the scenario where none is named
 /// What the record says of its points.
 struct PointKnowledge {
   double averages = 0, sd = 0, accuracy = 0;
-};
-
-/// What [record.responses] says of one response.
-struct TraceMapping {
-  std::string response, trace, unit, coherence, excited;
-  double gain = 1;
+  double frequency_gain = 1;
 };
 
 std::vector<TraceMapping> ReadTraceMappings(const TomlTable& t) {
@@ -49,6 +45,9 @@ std::vector<TraceMapping> ReadTraceMappings(const TomlTable& t) {
       m.gain = own.Number("gain", 1);
       if (!(std::abs(m.gain) > 0 && std::isfinite(m.gain)))
         own.Fail("gain", fmt::format("= {}, allowed: any but 0", m.gain));
+      m.conjugate = own.Bool("conjugate", false);
+      m.phase_gain = Within(own, "phase_gain", 1, {"-", 1e-3, 1e3, "phase over the file's"});
+      m.late = Within(own, "late", 0, {"s", -10, 10, "delay of the instrument"});
       own.RejectUnknownKeys();
     }
     out.push_back(m);
@@ -127,9 +126,7 @@ RigResponse NamedResponse(const RigParameters& rig, const TraceMapping& m, const
     t.Fail("responses",
            "\"" + m.response + "\": of a held rotor allowed are currents and set-points");
   out.unit = SiUnitOf(out);
-  out.trace = m.trace;
-  out.file_unit = m.unit;
-  out.gain = m.gain;
+  out.from = m;
   return out;
 }
 
@@ -141,6 +138,13 @@ const std::vector<double>* CoherenceOf(const FrequencyResponses& f, const std::s
   const bool only = name.empty() && f.coherence.size() == 1 &&
                     (f.coherence[0].name.empty() || f.responses.size() == 1);
   return only ? &f.coherence[0].values : nullptr;
+}
+
+/// A value of the file at `f` [Hz] without what its instrument did to its phase.
+Complex SetRight(Complex v, double f, const TraceMapping& m) {
+  if (m.phase_gain != 1) v = std::polar(std::abs(v), m.phase_gain * std::arg(v));
+  if (m.conjugate) v = std::conj(v);
+  return m.late == 0 ? v : v * std::polar(1.0, 2 * kPi * f * m.late);
 }
 
 /// Values in SI, and what each point is worth.
@@ -162,7 +166,8 @@ void Fill(const FrequencyResponses& f, const TraceMapping& m, const PointKnowled
   const bool averaged = coherence && known.averages > 0;
   out.sd_known = averaged || known.sd > 0;
   for (std::size_t k = 0; k < at->values.size(); ++k) {
-    out.values.push_back(factor * at->values[k]);
+    const Complex v = SetRight(at->values[k], known.frequency_gain * f.frequency[k], m);
+    out.values.push_back(factor * v);
     const double size = std::abs(out.values.back());
     const double random = averaged       ? CoherenceSd(size, (*coherence)[k], known.averages)
                           : known.sd > 0 ? known.sd * size
@@ -228,11 +233,16 @@ void ReadResponseRecord(const TomlTable& t, Case& c, CaseRecord& r) {
   known.sd = Within(t, "sd", 0, {"-", 0, 10, "sd of a point over its magnitude"});
   known.accuracy =
       Within(t, "accuracy", 0.002, {"-", 0, 1, "of a magnitude, that no averaging improves"});
-  r.responses.frequency = f.frequency;
+  known.frequency_gain =
+      Within(t, "frequency_gain", 1, {"-", 1e-6, 1e6, "frequency in Hz over the file's"});
+  r.responses.frequency_gain = known.frequency_gain;
+  for (const double at : f.frequency) r.responses.frequency.push_back(known.frequency_gain * at);
   std::vector<TraceMapping> mappings = ReadTraceMappings(t);
   if (mappings.empty())
-    for (const MeasuredResponse& trace : f.responses)
-      mappings.push_back({trace.name, trace.name, "", "", "", 1});
+    for (const MeasuredResponse& trace : f.responses) {
+      mappings.emplace_back();
+      mappings.back().response = mappings.back().trace = trace.name;
+    }
   for (const TraceMapping& mapping : mappings) {
     r.responses.responses.push_back(NamedResponse(c.rig, mapping, r, t));
     Fill(f, mapping, known, t, r.responses.responses.back());

@@ -58,12 +58,15 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
     if (model.data().records[r].kind == RecordKind::kFrf)
       CheckResponses(model, predicted, h, r, out);
     else
+      CheckTableRange(model, predicted, r, out);
+    if (model.data().records[r].kind == RecordKind::kStatic && out.empty())
       CheckTable(model, predicted, h, r, out);
     return out;
   }
   std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
   CheckLength(model, r, out);
   CheckGaps(model, r, out);
+  CheckConstantColumns(model, r, columns, out);
   CheckRange(model, r, columns, out);
   CheckSpikes(model, r, columns, out);
   CheckHeld(model, r, columns, out);
@@ -103,11 +106,24 @@ std::string Quantity(const DataFault& f) {
     return fmt::format("comes {:.4g} ms {}", 1e3 * std::abs(f.seconds),
                        f.seconds > 0 ? "late" : "early");
   if (f.fault == "clip") return fmt::format("is clipped for {:.4g} ms", 1e3 * f.seconds);
+  if (f.with == kEmpty) return "is empty in the whole record";
+  if (f.with == kWholeColumn)
+    return fmt::format("holds {} in the whole record", f.fault == "lost" ? "0" : "one value");
   if (f.fault == "freeze") return fmt::format("stands still for {:.4g} ms", 1e3 * f.seconds);
   if (f.fault == "lost") return fmt::format("lacks {:.4g} ms in the middle", 1e3 * f.seconds);
-  if (f.fault == "range") return "holds values that cannot be";
+  if (f.fault == "range")
+    return "holds values that cannot be" + (f.with.empty() ? "" : fmt::format(" ({})", f.with));
   if (f.seconds > 0) return fmt::format("lasts {:.4g} s longer than its scenario", f.seconds);
   return f.with.empty() ? "does not belong to its scenario" : "belongs to the scenario " + f.with;
+}
+
+/// What is to be done where no line of a case file mends a fault.
+std::string Correction(const DataFault& f) {
+  if (f.with == kPhase) return "state the unit of its phases in the header of the file";
+  if (f.with == kDecibels) return "write its magnitudes into the file as 20 log, or as they are";
+  if (f.fault == "range") return "correct its values in the file, or leave them empty";
+  if (f.fault == "scenario") return "name the scenario that was run (scenario = \"...\")";
+  return "correct the file";
 }
 
 }  // namespace
@@ -136,9 +152,10 @@ std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<doub
 }
 
 std::string FaultText(const DataFault& f) {
-  return fmt::format("{}: {} {}{}{}", f.record, f.channel.empty() ? "the record" : f.channel,
-                     Quantity(f), f.detail.empty() ? "" : ": " + f.detail,
-                     f.mend.empty() ? "" : "; to mend it: " + f.mend);
+  const std::string correction =
+      f.mend.empty() ? "no key of a case mends it: " + Correction(f) : "to mend it: " + f.mend;
+  return fmt::format("{}: {} {}{}; {}", f.record, f.channel.empty() ? "the record" : f.channel,
+                     Quantity(f), f.detail.empty() ? "" : ": " + f.detail, correction);
 }
 
 }  // namespace ambrig

@@ -10,6 +10,9 @@
 
 namespace ambrig {
 
+/// What is wrong with a whole column (DataFault::with).
+inline constexpr const char *kEmpty = "empty", *kWholeColumn = "whole record";
+
 /// Floors above which an error of a column is gross; below it a fit may speak first.
 inline constexpr double kGrossError = 10;
 
@@ -18,8 +21,10 @@ struct DataFault {
   std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario
   double factor = 1;   // measured over what it should be [-]: unit, sign
   double seconds = 0;  // late (positive), lost, frozen or clipped time [s]
-  std::string with;    // the other column, the scenario that fits; "phase", "conjugate", "decibels"
-  std::string mend;    // a line to paste into the record's table of the case file
+  // the other column, the scenario that fits; "phase", "conjugate", "decibels", "empty" ...
+  std::string with;
+  // a line to paste into the record's table of the case file; "": the data file is to be corrected
+  std::string mend;
   std::string detail;  // what shows it, where no column's prediction does
   double probability = 0;
 };

@@ -9,6 +9,9 @@
 namespace ambrig {
 
 // `record`: number in the case.
+/// Columns that are empty or at one value in the whole record, and a bus of 0 V.
+void CheckConstantColumns(const CaseModel& model, std::size_t record,
+                          std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 /// Values far beyond what the rig can show, where they are few; later checks leave them out.
 void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);

@@ -31,10 +31,7 @@ double LimitOf(const RigParameters& rig, const std::string& channel) {
     return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
   if (id->kind == ChannelKind::kDuty) return 1;
   if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
-  for (const BearingParameters& b : rig.bearings)
-    for (const std::string& axis : b.Axes())
-      if (axis == channel) return 2 * GapOf(b);
-  return kInfinity;
+  return 2 * GapOfAxis(rig, channel);
 }
 
 double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero) {

@@ -30,7 +30,6 @@ struct ResponseMistake {
   std::string fault, with;  // of a DataFault
   double factor = 1, seconds = 0;
   double left = 1;
-  bool gain = false;  // the factor is one of the values: a line of the case file mends it
 };
 
 /// The mistake that explains the response best, `fault` empty where none does.
@@ -39,6 +38,10 @@ ResponseMistake MistakeOf(const GateResponse& r, bool quotient);
 /// Signs, conjugates, units, phases, decibels and delays of the responses; the unit of their frequencies.
 void CheckResponses(const CaseModel& model, const std::vector<double>& predicted,
                     const Hypothesis& h, std::size_t record, std::vector<DataFault>& out);
+
+/// Rows of a table with readings or currents that cannot be.
+void CheckTableRange(const CaseModel& model, const std::vector<double>& predicted,
+                     std::size_t record, std::vector<DataFault>& out);
 
 /// Signs and units of the outputs of a table, and of what was set.
 void CheckTable(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,

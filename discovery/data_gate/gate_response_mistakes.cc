@@ -48,7 +48,7 @@ void KeepBetter(ResponseMistake& best, ResponseMistake other) {
 void TrySigns(const GateResponse& r, double before, ResponseMistake& best) {
   const double opposite = RelativeError(r, Each(r.expected, [](Complex v) { return -v; }));
   if (Believed(r, before, opposite, kLeftOfResponse))
-    KeepBetter(best, {"sign", "", -1, 0, opposite, true});
+    KeepBetter(best, {"sign", "", -1, 0, opposite});
   const double conjugate =
       RelativeError(r, Each(r.expected, [](Complex v) { return std::conj(v); }));
   if (Believed(r, before, conjugate, kLeftOfResponse))
@@ -68,7 +68,7 @@ void TryFactors(const GateResponse& r, double before, ResponseMistake& best) {
   const bool prefix = std::max(factor, 1 / factor) > kPrefix;
   const double left = RelativeError(r, Each(r.expected, [&](Complex v) { return factor * v; }));
   if (Believed(r, before, left, prefix ? kLeftOfResponse : kLeftOfFactor))
-    KeepBetter(best, {"unit", "", factor, 0, left, true});
+    KeepBetter(best, {"unit", "", factor, 0, left});
 }
 
 /// Magnitudes in decibels of a power that were read as those of an amplitude, or the other way round. The unit in which

@@ -147,11 +147,36 @@ FrequencyMistake FrequenciesOf(const CaseModel& model, const Hypothesis& h, std:
   return best;
 }
 
-std::string ResponseLine(const RigResponse& r, double factor) {
-  return fmt::format(
-      "responses.\"{}\" = {{ trace = \"{}\"{}{}, gain = {:.9g} }}", r.name(), r.trace,
-      r.file_unit.empty() ? "" : fmt::format(", unit = \"{}\"", r.file_unit),
-      r.input.port() ? "" : fmt::format(", excited = \"{}\"", r.excited.name), r.gain / factor);
+/// The line of the case file that undoes a mistake; empty where none can.
+std::string ResponseLine(const RigResponse& r, const ResponseMistake& mistake) {
+  TraceMapping m = r.from;
+  if (mistake.with == kConjugate) {
+    m.conjugate = !m.conjugate;
+    m.late = -m.late;  // is undone before it
+  } else if (mistake.with == kPhase && mistake.factor < 1) {
+    m.phase_gain /= mistake.factor;
+  } else if (mistake.fault == "lag") {
+    m.late += mistake.seconds;
+  } else if (mistake.with.empty()) {
+    m.gain /= mistake.factor;
+  } else {
+    return "";  // phases beyond a turn, powers of magnitudes: the file lost what they were
+  }
+  std::string keys = fmt::format("trace = \"{}\"", m.trace);
+  const auto name = [&](const char* key, const std::string& value) {
+    if (!value.empty()) keys += fmt::format(", {} = \"{}\"", key, value);
+  };
+  const auto number = [&](const char* key, double value, double usual) {
+    if (value != usual) keys += fmt::format(", {} = {:.9g}", key, value);
+  };
+  name("unit", m.unit);
+  name("excited", r.input.port() ? "" : r.excited.name);
+  name("coherence", m.coherence);
+  if (m.conjugate) keys += ", conjugate = true";
+  number("phase_gain", m.phase_gain, 1);
+  number("late", m.late, 0);
+  number("gain", m.gain, 1);
+  return fmt::format("responses.\"{}\" = {{ {} }}", r.name(), keys);
 }
 
 }  // namespace
@@ -174,6 +199,7 @@ void CheckResponses(const CaseModel& model, const std::vector<double>& predicted
   if (f.factor != 1 && f.left < least) {
     DataFault fault = FaultLeaving(r, "frequency", "unit", f.left);
     fault.factor = f.factor;
+    fault.mend = fmt::format("frequency_gain = {:.9g}", r.responses.frequency_gain / f.factor);
     out.push_back(fault);
     return;
   }
@@ -184,7 +210,7 @@ void CheckResponses(const CaseModel& model, const std::vector<double>& predicted
     fault.factor = mistake.factor;
     fault.seconds = mistake.seconds;
     fault.with = mistake.with;
-    if (mistake.gain) fault.mend = ResponseLine(of, mistake.factor);
+    fault.mend = ResponseLine(of, mistake);
     out.push_back(fault);
   }
 }

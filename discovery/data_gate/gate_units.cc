@@ -54,6 +54,8 @@ const std::vector<Mistake>& Mistakes() {
 
 constexpr double kMostGain = 1.6;  // that a sensor of the rig may have, or one over it
 constexpr double kLikeOthers = 2, kMostLeft = 0.25;
+constexpr double kOtherFactor = 0.2;  // logarithm of the ratio of two factors that are not the same
+constexpr double kFarLess = 0.3;      // of the error that another factor leaves
 constexpr double kLeftOfLevel = 0.05;  // a level is one number: it has to fit
 
 /// rms of measured/factor - predicted, over the error beside a zero of the sensor.
@@ -127,9 +129,8 @@ double WholeGain(const MatchedColumn& c) {
 
 /// Whether another factor leaves far less than the listed one, which then only comes near.
 bool OnlyNear(const Mistake& m, double rest, const Suspect& s) {
-  constexpr double kOther = 0.2, kFarLess = 0.3;
   const double gain = WholeGain(s.column.column);
-  return gain > 0 && std::abs(std::log(gain / m.factor)) > kOther &&
+  return gain > 0 && std::abs(std::log(gain / m.factor)) > kOtherFactor &&
          Left(s.column, gain, s.error) < kFarLess * rest;
 }
 
@@ -184,15 +185,27 @@ struct FoundFactor {
   double factor, left;
 };
 
-/// A mistake of the list, or else any factor of the movement.
+/// The power of ten that a gain is within one percent; the gain itself where it is none.
+double PowerOfTenNear(double gain) {
+  if (gain <= 0) return gain;
+  const double power = std::pow(10.0, std::round(std::log10(gain)));
+  return std::abs(gain / power - 1) < 0.01 ? power : gain;
+}
+
+/// The mistake of the list that leaves least, or any factor of the movement where none is believed or where it leaves far
+/// less: a prefix asks for no shape, and beside a factor of 1e4 it leaves little as well.
 std::optional<FoundFactor> BestFactor(const Suspect& s) {
   std::optional<FoundFactor> best;
   for (const Mistake& m : Mistakes())
     if (const auto rest = LeftBy(m, s); rest && (!best || *rest < best->left))
       best = {m.factor, *rest};
-  if (best || s.level) return best;
+  if (s.level) return best;
   const double gain = s.column.match.gain;
-  if (const auto rest = LeftByAny(gain, 0.98, s)) best = {gain, *rest};
+  if (best && (gain <= 0 || std::abs(std::log(gain / best->factor)) < kOtherFactor)) return best;
+  const double factor = PowerOfTenNear(gain);
+  if (const auto rest = LeftByAny(factor, 0.98, s);
+      rest && (!best || *rest < kFarLess * best->left))
+    best = {factor, *rest};
   return best;
 }
 
@@ -213,6 +226,9 @@ std::string UnitLine(const CaseRecord& r, const std::string& channel, double fac
   const double right = source.factor / factor;  // SI per number in the file
   static constexpr std::array<std::pair<double, const char*>, 4> kPrefixes = {
       {{1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e3, "k"}}};
+  if (source.si == "m" && std::abs(right / 1e-9 - 1) < 1e-6)
+    return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"nm\" }}", channel,
+                       source.column);
   for (const auto& [size, prefix] : kPrefixes)
     if (std::abs(right / size - 1) < 1e-6)
       return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}{}\" }}", channel,

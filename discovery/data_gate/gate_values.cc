@@ -151,14 +151,6 @@ bool StandsWhileItComesBack(const GateColumn& c, const HeldStretch& s, double si
   return within > kWithinShare * static_cast<double>(s.count);
 }
 
-/// A column that the data-quality pass refused: it stands still where it should move.
-void StuckColumns(const CaseRecord& r, std::vector<DataFault>& out) {
-  for (std::size_t k = 0; k < r.quality.size(); ++k)
-    if (!r.quality[k].use && r.quality[k].verdict.starts_with("stuck") &&
-        r.scenario.start != StartState::kClamped)
-      TellHeld(r, r.quality[k].channel, {0, r.data.rows(), r.data.channels[k].samples[0]}, out);
-}
-
 }  // namespace
 
 namespace {
@@ -224,7 +216,6 @@ void CheckStretches(const CaseModel& model, const CaseRecord& r, bool from_first
 
 void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                std::vector<DataFault>& out) {
-  StuckColumns(model.data().records[record], out);
   CheckStretches(model, model.data().records[record], false, columns, out);
 }
 

@@ -7,8 +7,10 @@
 
 #include "discovery/data_gate/lonely_rows.h"
 #include "discovery/data_gate/start_current.h"
+#include "discovery/model/block_ratios.h"
 #include "discovery/model/floor.h"
 #include "discovery/search/screen.h"
+#include "simulation/switching/lost_rotor.h"
 
 namespace ambrig {
 
@@ -84,6 +86,18 @@ RecordComparison RecordBeside(const CaseModel& model, const std::vector<double>&
   return out;
 }
 
+/// The blocks of a record. Noise that wrong data seem to show may throw the rotor of the comparison with it: then none.
+BlockErrors BlocksBeside(const CaseModel& model, const Hypothesis& h, std::size_t r,
+                         std::vector<std::string>& words) {
+  try {
+    return BlockRatios(model, h, r);
+  } catch (const LostRotor&) {
+    words.push_back(model.data().records[r].data_file +
+                    ": its blocks are not compared, the model with this noise loses its rotor");
+    return {};
+  }
+}
+
 }  // namespace
 
 Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
@@ -124,11 +138,12 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
           0.3 + 0.7 * static_cast<double>(r) / static_cast<double>(model.data().records.size()),
           "blocks of " + record.data_file);
     RecordComparison out = RecordBeside(model, c.residual, r, c.words);
-    if (blocks) out.blocks = BlockRatios(model, h, r);
+    if (blocks) out.blocks = BlocksBeside(model, h, r, c.words);
     c.records.push_back(std::move(out));
   }
   for (const DataFault& f : c.data) c.words.push_back("data: " + FaultText(f));
-  for (const std::string& line : LonelyRemarks(model.data(), lonely)) c.words.push_back(line);
+  c.left_out = LonelyRemarks(model.data(), lonely);
+  c.words.insert(c.words.end(), c.left_out.begin(), c.left_out.end());
   for (const std::string& line : StartRemarks(model.data(), starts)) c.words.push_back(line);
   for (const std::string& line : NoiseRemarks(c.noise)) c.words.push_back(line);
   for (const std::string& line : Words(c)) c.words.push_back(line);

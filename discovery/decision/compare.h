@@ -38,6 +38,7 @@ struct Comparison {
   std::vector<double> predicted, residual;  // rows of the model: [SI]; over the floor [-]
   double effective_sample_size = 0;         // independent numbers among the residuals
   std::vector<SampleSpan> unpredictable;    // left out of the model
+  std::vector<std::string> left_out;        // single samples among them, a line for each column
 };
 
 /// @throws InputError where no row of any record counts.

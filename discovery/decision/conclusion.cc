@@ -7,6 +7,7 @@
 
 #include "discovery/decision/drift_test.h"
 #include "discovery/decision/evidence.h"
+#include "discovery/decision/second_round.h"
 #include "discovery/search/likelihood.h"
 
 namespace ambrig {
@@ -165,6 +166,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
     out.remainder = {
         RemainderKind::kLawVariation, {}, SaidOfUnits(out.closure.floors_after, of_units)};
   if (out.shaped) SayShape(last, out);
+  SettleSecondRound(model.data().rig.effects.size(), out);
 }
 
 void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {

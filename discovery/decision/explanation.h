@@ -35,8 +35,10 @@ struct Explanation {
   ExplanationVerdict verdict = ExplanationVerdict::kUnfinished;
   std::vector<RankedEffect> ranking;       // of the first round, best first
   std::vector<RankedEffect> second_round;  // of the last round that found anything or nothing
-  std::vector<EffectInstance> adopted;     // established, whatever remains
-  std::vector<SetMember> set;              // holds the right answer with 95 %
+  std::vector<std::string>
+      second_beside;  // effects beside which that round was ranked: "eddy-currents at A"
+  std::vector<EffectInstance> adopted;  // established, whatever remains
+  std::vector<SetMember> set;           // holds the right answer with 95 %
   // beside what the names of the ranking were judged again: "eddy-currents at A"; empty: alone
   std::vector<std::string> judged_beside;
   // of every further effect adopted, by its name: the same as ranking and set

@@ -35,18 +35,20 @@ ShownChange WorstChannel(const CaseModel& model, const std::vector<double>& with
   return worst;
 }
 
-std::vector<EffectInstance> VisibleEffects(
+std::optional<ShownEffects> VisibleEffects(
     const CaseModel& model, const Hypothesis& truth, const std::vector<double>& without,
-    const std::function<std::vector<EffectInstance>(double)>& of_size, ShownChange* shown) {
+    const std::function<std::vector<EffectInstance>(double)>& of_size) {
   double k = 1;
   for (int attempt = 0; attempt < 12; ++attempt) {
     Hypothesis h = truth;
     std::vector<EffectInstance> effects = of_size(k);
     h.rig.effects.insert(h.rig.effects.end(), effects.begin(), effects.end());
     const auto with = model.Predict(h);
-    *shown = with ? WorstChannel(model, *with, without) : ShownChange{kInfinity, ""};
-    if (shown->ratio >= kLeastRatio && shown->ratio <= kMostRatio) return effects;
-    k *= !with ? 0.5 : shown->ratio < kLeastRatio ? 2.0 : 0.7;
+    const ShownChange shown =
+        with ? WorstChannel(model, *with, without) : ShownChange{kInfinity, ""};
+    if (shown.ratio >= kLeastRatio && shown.ratio <= kMostRatio)
+      return ShownEffects{std::move(effects), shown};
+    k *= !with ? 0.5 : shown.ratio < kLeastRatio ? 2.0 : 0.7;
   }
   return {};
 }

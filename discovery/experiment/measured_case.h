@@ -1,6 +1,7 @@
 #pragma once
 /// What the loggers of a true rig would have written, and how much an effect shows in it.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,16 @@ struct ShownChange {
 ShownChange WorstChannel(const CaseModel& model, const std::vector<double>& with,
                          const std::vector<double>& without);
 
+struct ShownEffects {
+  std::vector<EffectInstance> effects;
+  ShownChange change;  // that they make
+};
 /// The effects of a size (1: as drawn) that the records show, neither hardly nor grotesquely: the
 /// worst channel moves by 5 to 60 floors while the rotor is held. `truth`: the rig with what acts
-/// besides, `without`: its prediction. Empty when no size does.
-std::vector<EffectInstance> VisibleEffects(
+/// besides, `without`: its prediction. Nothing when no size does.
+std::optional<ShownEffects> VisibleEffects(
     const CaseModel& model, const Hypothesis& truth, const std::vector<double>& without,
-    const std::function<std::vector<EffectInstance>(double)>& of_size, ShownChange* shown);
+    const std::function<std::vector<EffectInstance>(double)>& of_size);
 
 /// Fills record `record` of `data` with what `truth` gives there, noise included.
 /// `load_cell_noise` [N] rms.

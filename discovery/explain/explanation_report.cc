@@ -6,6 +6,7 @@
 
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
+#include "discovery/decision/parameter_shifts.h"
 
 namespace ambrig {
 
@@ -61,8 +62,9 @@ Explanation ExplanationReport::Final(const FitResult& as_filed, const FitResult&
 
 void ExplanationReport::AddToVerdict(const FitResult& base, const FitResult& now,
                                      Explanation& out) const {
-  out.parameter_shifts =
-      ParameterShifts((out.verdict == ExplanationVerdict::kEffect ? now : base).hypothesis);
+  constexpr double kReportedShift = 1;  // [sd]
+  out.parameter_shifts = ParameterShifts(
+      (out.verdict == ExplanationVerdict::kEffect ? now : base).hypothesis, kReportedShift);
   if (out.verdict == ExplanationVerdict::kUnknown) {
     // The model may just hold the rotor on the rows that were fitted.
     const FitResult all = models_.AtAllRows(now);
@@ -101,14 +103,6 @@ std::vector<Confusable> ExplanationReport::FindConfusable(
     out.push_back({best.effect.name, other.effect.name,
                    SeparatingRecord(models_.thinned(), best.fit.hypothesis, other.fit.hypothesis)});
   }
-  return out;
-}
-
-std::vector<std::string> ParameterShifts(const Hypothesis& h) {
-  std::vector<std::string> out;
-  for (std::size_t k = 0; k < h.free.size(); ++k)
-    if (const double sds = h.Coordinate(k); std::abs(sds) > 1 && h.free[k].effect < 0)
-      out.push_back(fmt::format("{} {:+.2f} sd", h.free[k].path, sds));
   return out;
 }
 

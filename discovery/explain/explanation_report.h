@@ -60,7 +60,4 @@ class ExplanationReport {
   double nominal_ratio_validate_ = 0, base_ratio_fit_ = 0, base_ratio_validate_ = 0;
 };
 
-/// "bearings.A.gap +1.20 sd" of every rig parameter that a fit moved by more than its sd.
-std::vector<std::string> ParameterShifts(const Hypothesis& h);
-
 }  // namespace ambrig

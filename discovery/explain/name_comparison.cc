@@ -29,15 +29,13 @@ void NameComparison::CompareOnly(const FitResult& base, FitResult& now) {
 
 bool NameComparison::CompareBeside(const FitResult& base, std::size_t index,
                                    const std::vector<EffectInstance>& rivals, FitResult& now) {
-  constexpr double kBetter = 2;  // of the score: 73 to 27 %
   std::vector<RankedEffect> ranking = RankBeside(models_.thinned(), {base, now, adopted_.all()},
                                                  index, rivals, models_.effective_sample_size());
   const RankedEffect& best = ranking[0];
   const EffectInstance before = adopted_[index];
   const bool swapped =
       !IsSameName(best.effect, before) && !names_.ComparedByShape(best.effect, before) &&
-      HasSize(best.fit, adopted_.PlaceOf(index)) && (Believable(best.fit) || !Believable(now)) &&
-      models_.Gain(now, best.fit) > kBetter;
+      HasSize(best.fit, adopted_.PlaceOf(index)) && (Believable(best.fit) || !Believable(now));
   if (swapped) {
     log_.Step(Named(best.effect) + " in place of " + Named(before), best.fit);
     now = best.fit;

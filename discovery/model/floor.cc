@@ -9,6 +9,7 @@
 #include "discovery/model/in_parallel.h"
 #include "discovery/model/point_floor.h"
 #include "discovery/model/residual.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -153,7 +154,9 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
         id->kind == ChannelKind::kCoilCurrent && !model.data().noise.contains(channel);
     if (const double used = model.noise_model.Used(channel); std::isfinite(used) && !of_runs)
       square = reader_noise ? square + used * used : std::max(square, used * used);
-    t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), t.full_scale));
+    // of positions in a wrong unit the signal says nothing about what the file rounds
+    const double full_scale = std::min(t.full_scale, GapOfAxis(h.rig, channel));
+    t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), full_scale));
   }
   floor.effective_sample_size = IndependentRows(model, d1);
   floor.clean = *clean;

@@ -25,6 +25,8 @@ struct TriedScenario {
   std::string title;
   double size = 0;            // of its usual excitation
   double largest_orbit = 0;   // [m]
+  std::string orbit_at = {};  // the bearing that shows it
+  double orbit_share = 0;     // [-] of any bearing's orbit, of what is allowed there
   double least_distance = 0;  // of the pair that it separates worst, standard deviations
   std::string refused;        // why it was not taken into account; empty: it was
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/errors.h"
 #include "discovery/decision/prepared_models.h"
@@ -69,15 +70,18 @@ void Planner::Prepare(TrialRecord* trial) const {
         kinds[k].column.Segment(0, kinds[k].column.rows());
 }
 
-bool Planner::View(const TrialRecord& trial, std::vector<RivalView>* views) const {
+std::optional<std::vector<RivalView>> Planner::Views(const TrialRecord& trial) const {
   const auto nothing = trial.model->Predict(nothing_);
   // a rotor that only the effect holds has nothing to compare with: the effect is all there is
   const std::vector<double> base =
       nothing ? *nothing : std::vector<double>(trial.model->size(), 0.0);
-  views->resize(rivals_.size());
-  for (std::size_t k = 0; k < rivals_.size(); ++k)
-    if (!ViewOf(trial, rivals_[k], base, &(*views)[k])) return false;
-  return true;
+  std::vector<RivalView> views;
+  for (const Rival& rival : rivals_) {
+    std::optional<RivalView> view = ViewOf(trial, rival, base);
+    if (!view) return {};
+    views.push_back(std::move(*view));
+  }
+  return views;
 }
 
 /// The candidate at the largest size that every rival survives.
@@ -97,27 +101,33 @@ std::optional<Planner::Scored> Planner::Score(const PlanCandidate& c, TriedScena
     s.safety.safe = true;
     for (const Rival& r : rivals_) {
       const SafetyResult one = CheckSafety(trial, r, {});
-      s.safety.largest_orbit = std::max(s.safety.largest_orbit, one.largest_orbit);
+      if (one.largest_orbit > s.safety.largest_orbit) {
+        s.safety.largest_orbit = one.largest_orbit;
+        s.safety.orbit_at = one.orbit_at;
+      }
+      s.safety.orbit_share = std::max(s.safety.orbit_share, one.orbit_share);
       s.safety.largest_current = std::max(s.safety.largest_current, one.largest_current);
-      if (!one.safe) s.safety = {false, one.largest_orbit, one.largest_current, one.reason};
+      if (!one.safe) s.safety = one;
       if (!one.safe) break;
     }
     tried->size = size;
     tried->largest_orbit = s.safety.largest_orbit;
+    tried->orbit_at = s.safety.orbit_at;
+    tried->orbit_share = s.safety.orbit_share;
     tried->refused = s.safety.reason;
     if (!s.safety.safe && c.toml(size) == c.toml(1) && size < 1) return std::nullopt;
     if (!s.safety.safe) continue;
     Prepare(&trial);
-    std::vector<RivalView> views;
-    const bool held = View(trial, &views);
+    const std::optional<std::vector<RivalView>> views = Views(trial);
     runs_ += trial.model->runs;
-    if (!held) {
+    if (!views) {
       tried->refused = "the rotor is lost near one of the models";
       return std::nullopt;
     }
     s.least = kInfinity;
     for (const auto& [a, b] : Pairs()) {
-      s.probabilities.push_back(ProbabilityRight(SquaredDistances(trial, views[a], views[b])));
+      s.probabilities.push_back(
+          ProbabilityRight(SquaredDistances(trial, (*views)[a], (*views)[b])));
       s.least = std::min(s.least, s.probabilities.back());
     }
     tried->least_distance = DistanceOf(s.least);
@@ -141,12 +151,15 @@ Plan Planner::Run() {
     TriedScenario tried;
     std::optional<Scored> s = Score(candidates[k], &tried);
     plan.tried.push_back(tried);
-    if (s && (!best || s->least > best->least)) best = std::move(s);
+    // of those that tell the names apart equally well the one that moves the rotor least
+    if (s && (!best || std::pair(s->least, -s->safety.orbit_share) >
+                           std::pair(best->least, -best->safety.orbit_share)))
+      best = std::move(s);
   }
   std::stable_sort(plan.tried.begin(), plan.tried.end(),
                    [](const TriedScenario& a, const TriedScenario& b) {
-                     return std::pair(a.refused.empty(), a.least_distance) >
-                            std::pair(b.refused.empty(), b.least_distance);
+                     return std::tuple(a.refused.empty(), a.least_distance, -a.orbit_share) >
+                            std::tuple(b.refused.empty(), b.least_distance, -b.orbit_share);
                    });
   if (!best)
     throw InputError(

@@ -32,7 +32,8 @@ class Planner {
   std::optional<Scored> Score(const PlanCandidate& c, TriedScenario* tried);
   /// Floors, nuisances and weight of a trial record.
   void Prepare(TrialRecord* trial) const;
-  bool View(const TrialRecord& trial, std::vector<RivalView>* views) const;
+  /// One for each rival; nothing when one of them loses the rotor.
+  std::optional<std::vector<RivalView>> Views(const TrialRecord& trial) const;
   void Confirm(const Scored& best, Plan& plan);
   /// Whether the truth `pair[which]` is found in one simulated record of it.
   std::optional<bool> Decide(const TrialRecord& trial, const std::vector<RivalView>& views,

@@ -84,8 +84,9 @@ void Planner::Confirm(const Scored& best, Plan& plan) {
   Prepare(&trial);
   plan.record_rate = trial.data->records[0].data.rate;
   for (const Channel& ch : trial.data->records[0].data.channels) plan.channels.push_back(ch.name);
-  std::vector<RivalView> views;
-  if (!View(trial, &views)) throw InputError("the planned record loses the rotor");
+  const std::optional<std::vector<RivalView>> found = Views(trial);
+  if (!found) throw InputError("the planned record loses the rotor");
+  const std::vector<RivalView>& views = *found;
   const auto pairs = Pairs();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [a, b] = pairs[p];

@@ -65,8 +65,7 @@ CaseRecord MeasuredRecord(const PracticeCase& made, const Case& few, const Plan&
 
 }  // namespace
 
-PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options,
-                        PlannedRecord* planned) {
+PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options) {
   if (made.kind != "one") throw InputError(made.name + ": hides not one effect");
   PromiseTrial trial;
   trial.name = made.name;
@@ -108,7 +107,7 @@ PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const Promis
   trial.promise = plan.separates.at(0).probability;
   few.records.push_back(MeasuredRecord(made, few, plan, options.seed));
   explain.progress = part(0.6, 1);
-  *planned = {plan.toml, few.records.back().data};
+  trial.planned = {plan.toml, few.records.back().data};
   trial.after = ShareOfRight(Explain(few, explain), pair.right, pair.other);
   return trial;
 }

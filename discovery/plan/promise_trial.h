@@ -4,6 +4,7 @@
 /// catalogue's.
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,21 @@
 
 namespace ambrig {
 
+/// The record that was planned: its scenario file, and what the true rig gave.
+struct PlannedRecord {
+  std::string scenario;
+  Record measured;
+};
+
 struct PromiseTrial {
   std::string name, rig, law;  // of the practice case
   std::string right, other;    // "saturation at A"
   std::string record;          // that was planned, its title
   double before = 0;  // share of the right name in the probability of both, by the first record
-  double promise = 0, after = 0;  // by the plan; the same share with its record
-  std::string left_out;           // why there is nothing to tell apart; empty: there is
+  double promise = 0, after = 0;              // by the plan; the same share with its record
+  std::string left_out;                       // why there is nothing to tell apart; empty: there is
+  std::optional<PlannedRecord> planned = {};  // of a trial that was not left out
   bool found() const { return after > 0.5; }
-};
-
-/// The record that was planned: its scenario file, and what the true rig gave.
-struct PlannedRecord {
-  std::string scenario;
-  Record measured;
 };
 
 struct PromiseOptions {
@@ -36,10 +38,8 @@ struct PromiseOptions {
   std::function<void(double, const std::string&)> progress;
 };
 
-/// `made` hides one effect; `read`: the same case as its files say; `planned` stays as it is where the trial is left out.
-/// @throws Interrupted, InputError
-PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options,
-                        PlannedRecord* planned);
+/// `made` hides one effect; `read`: the same case as its files say; @throws Interrupted, InputError
+PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options);
 
 /// Trials by what was promised, the highest first; those left out do not count.
 struct PromiseBin {

@@ -71,11 +71,12 @@ double LogDeterminant(const Eigen::MatrixXd& M) {
 
 }  // namespace
 
-bool ViewOf(const TrialRecord& trial, const Rival& rival, const std::vector<double>& nothing,
-            RivalView* view) {
+std::optional<RivalView> ViewOf(const TrialRecord& trial, const Rival& rival,
+                                const std::vector<double>& nothing) {
   const auto predicted = trial.model->Predict(rival.hypothesis);
-  if (!predicted) return false;
-  view->predicted = *predicted;
+  if (!predicted) return {};
+  RivalView view;
+  view.predicted = *predicted;
   std::vector<std::size_t> rig, effects;
   for (std::size_t k = 0; k < rival.hypothesis.free.size(); ++k)
     (rival.hypothesis.free[k].effect < 0 ? rig : effects).push_back(k);
@@ -86,18 +87,18 @@ bool ViewOf(const TrialRecord& trial, const Rival& rival, const std::vector<doub
   const Eigen::MatrixXd law = rival.target.empty()
                                   ? Eigen::MatrixXd(static_cast<Index>(predicted->size()), 0)
                                   : LawBlocks(trial, Difference(trial, *predicted, nothing));
-  view->law = law.cols();
-  const Index own = n + trial.nuisances.cols(), all = own + view->law;
-  view->columns.resize(static_cast<Index>(predicted->size()), all);
+  view.law = law.cols();
+  const Index own = n + trial.nuisances.cols(), all = own + view.law;
+  view.columns.resize(static_cast<Index>(predicted->size()), all);
   for (std::size_t k = 0; k < rig.size(); ++k)
-    view->columns.col(static_cast<Index>(rig[k])) = of_rig.col(static_cast<Index>(k));
+    view.columns.col(static_cast<Index>(rig[k])) = of_rig.col(static_cast<Index>(k));
   for (std::size_t k = 0; k < effects.size(); ++k)
-    view->columns.col(static_cast<Index>(effects[k])) = of_effects.col(static_cast<Index>(k));
-  view->columns.middleCols(n, own - n) = trial.nuisances;
-  view->columns.rightCols(view->law) = law;
-  view->weight = Eigen::MatrixXd::Identity(all, all);
-  view->weight.topLeftCorner(n, n) = rival.precision;
-  return true;
+    view.columns.col(static_cast<Index>(effects[k])) = of_effects.col(static_cast<Index>(k));
+  view.columns.middleCols(n, own - n) = trial.nuisances;
+  view.columns.rightCols(view.law) = law;
+  view.weight = Eigen::MatrixXd::Identity(all, all);
+  view.weight.topLeftCorner(n, n) = rival.precision;
+  return view;
 }
 
 std::vector<double> SquaredDistances(const TrialRecord& trial, const RivalView& a,

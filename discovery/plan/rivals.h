@@ -3,6 +3,7 @@
 /// record should tell apart.
 #include <Eigen/Dense>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,9 @@ inline constexpr LawVariation kLawVariations[] = {{0.1, 0.5}, {0.2, 0.3}, {0.4, 
 inline constexpr int kLawBlocks = 8;             // of time
 inline constexpr std::size_t kLawChannels = 16;  // those that show most of it
 
-/// `nothing`: prediction of the model without the rivals' effects. False when the rotor is lost.
-bool ViewOf(const TrialRecord& trial, const Rival& rival, const std::vector<double>& nothing,
-            RivalView* view);
+/// `nothing`: prediction of the model without the rivals' effects. Nothing when the rotor is lost.
+std::optional<RivalView> ViewOf(const TrialRecord& trial, const Rival& rival,
+                                const std::vector<double>& nothing);
 
 /// Squared distance of two rivals' predictions in standard deviations, whatever their numbers and laws do to come nearer:
 /// min over b of |d - C b|² + bᵀ P b. One for each of kLawVariations.

@@ -61,10 +61,12 @@ SafetyResult CheckSafety(const TrialRecord& trial, const Rival& rival, const Saf
     const double orbit = scenario.start == StartState::kClamped
                              ? 0
                              : OrbitOf(record, b, levitated ? 0 : 0.5 * scenario.duration);
-    out.largest_orbit = std::max(out.largest_orbit, orbit);
-    if (orbit > limits.orbit * ClearanceOf(b))
+    if (orbit > out.largest_orbit) out.largest_orbit = orbit, out.orbit_at = b.name;
+    const double allowed = limits.orbit * ClearanceOf(b);
+    out.orbit_share = std::max(out.orbit_share, orbit / allowed);
+    if (orbit > allowed)
       out.reason = fmt::format("orbit of {:.3g} um at {}, allowed {:.3g} um", 1e6 * orbit, b.name,
-                               1e6 * limits.orbit * ClearanceOf(b));
+                               1e6 * allowed);
     for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent))
       if (const Channel* i = record.Find(id.name()))
         for (const double v : i->samples)

@@ -15,6 +15,8 @@ struct SafetyLimits {
 struct SafetyResult {
   bool safe = false;
   double largest_orbit = 0;    // [m], of the levitated rotor's readings
+  std::string orbit_at = {};   // the bearing that shows it
+  double orbit_share = 0;      // [-] of any bearing's orbit, of what is allowed there
   double largest_current = 0;  // [A]
   std::string reason;          // why not
 };

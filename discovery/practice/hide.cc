@@ -48,18 +48,17 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
     const auto slot = static_cast<std::uint32_t>(k);
     const EffectInstance drawn = DrawEffect(
         d, DrawTarget(d, rig, request.effects[k].second, request.seed, slot), request.seed, slot);
-    ShownChange shown;
-    const auto visible = VisibleEffects(
-        model, truth, floor.clean,
-        [&](double size) { return std::vector{ScaledEffect(d, drawn, size)}; }, &shown);
-    if (visible.empty())
+    const auto visible = VisibleEffects(model, truth, floor.clean, [&](double size) {
+      return std::vector{ScaledEffect(d, drawn, size)};
+    });
+    if (!visible)
       throw InputError(fmt::format(
           "{}@{}: no size of this effect is visible in these records without losing levitation",
           d.id, drawn.target));
-    out.effects.push_back(visible[0]);
-    if (shown.ratio > out.worst_ratio) {
-      out.worst_ratio = shown.ratio;
-      out.worst_channel = shown.channel;
+    out.effects.push_back(visible->effects[0]);
+    if (visible->change.ratio > out.worst_ratio) {
+      out.worst_ratio = visible->change.ratio;
+      out.worst_channel = visible->change.channel;
     }
   }
   for (const EffectInstance& e : out.effects) truth.rig.effects.push_back(e);

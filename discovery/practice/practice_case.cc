@@ -150,14 +150,12 @@ class PracticeMaker {
     const NoiseFloor floor = FindFloor(model, truth_);
     std::vector<EffectInstance> all;
     for (std::size_t k = 0; k < laws_.size(); ++k) {
-      ShownChange shown;
-      const auto effects = VisibleEffects(
-          model, truth_, floor.clean,
-          [&](double size) { return laws_[k].law->make(Setting(laws_[k], k, size)); }, &shown);
-      if (effects.empty())
-        throw InputError(laws_[k].law->id + ": no size is visible with the rotor held");
-      all.insert(all.end(), effects.begin(), effects.end());
-      out_.worst_ratio = std::max(out_.worst_ratio, shown.ratio);
+      const auto visible = VisibleEffects(model, truth_, floor.clean, [&](double size) {
+        return laws_[k].law->make(Setting(laws_[k], k, size));
+      });
+      if (!visible) throw InputError(laws_[k].law->id + ": no size is visible with the rotor held");
+      all.insert(all.end(), visible->effects.begin(), visible->effects.end());
+      out_.worst_ratio = std::max(out_.worst_ratio, visible->change.ratio);
       out_.laws.push_back(laws_[k].law->id + "@" + laws_[k].target);
       out_.families.push_back(laws_[k].law->family);
     }

@@ -12,6 +12,7 @@
 #include "discovery/case/effect_target.h"
 #include "discovery/case/test_records.h"
 #include "discovery/decision/last_fit.h"
+#include "discovery/decision/parameter_shifts.h"
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/coil_errors.h"
 #include "discovery/model/residual.h"
@@ -24,6 +25,9 @@
 namespace ambrig {
 
 namespace {
+
+constexpr double kToldShift =
+    2;  // sd of a parameter's tolerance, beyond which a user is to look at it
 
 bool SameFolder(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
@@ -109,6 +113,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   }
   for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k)
     a.effects.push_back(FittedEffect(a.fit, k));
+  a.parameter_shifts = ParameterShifts(a.fit.hypothesis, kToldShift);
   a.rig_text = AdoptedRigText(rig_text, a.fit.hypothesis, a.effects);
   if (!SameFolder(c.rig_file, output)) a.rig_text = WithAbsoluteFiles(a.rig_text, c.rig_file);
   progress(0.9, "compare again");

@@ -20,6 +20,7 @@ struct Adoption {
   FitResult fit;
   std::vector<EffectInstance> effects;  // all of the new rig, fitted; the adopted one last
   std::vector<LadderStep> ladder;
+  std::vector<std::string> parameter_shifts;  // "bearings.A.gap +2.3 sd": beyond what is usual
   std::string rig_text;
   std::unique_ptr<Case> adopted_case;  // with the new rig
   std::unique_ptr<CaseModel> model;    // of it, floors set

@@ -23,13 +23,13 @@ namespace ambrig {
 
 namespace {
 
-/// The number of independent residuals of both models. @throws InputError for wrong data
-double Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
-  const Comparison before = PrepareModels(full, thin, nominal);
+/// Makes both models ready. @throws InputError for wrong data
+Comparison Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
+  Comparison before = PrepareModels(full, thin, nominal);
   for (const DataFault& f : before.data)
     throw InputError(fmt::format("{}: the data are wrong ({}); correct them first",
                                  full.data().file, FaultText(f)));
-  return before.effective_sample_size;
+  return before;
 }
 
 /// What the coils of the machine differ by is without doubt beside the shape, if anywhere: law and shape are then fitted
@@ -135,6 +135,17 @@ std::string RigText(const Case& c, const Refinement& r, const std::string& outpu
   return folder(c.rig_file) == folder(output) ? text : WithAbsoluteFiles(text, c.rig_file);
 }
 
+/// @throws InputError unless the catalogue's effect has a curve
+void RequireRefinable(const std::string& effect) {
+  if (IsRefinable(effect)) return;
+  const std::string near = FindEffect(effect) ? "" : Nearest(effect, RefinableEffects());
+  if (!near.empty())
+    throw InputError(fmt::format("unknown effect {}, did you mean {}?", effect, near));
+  throw InputError(fmt::format("{} {}, allowed: {}", effect,
+                               FindEffect(effect) ? "has no curve to refine" : "is no effect",
+                               RefinableEffects()));
+}
+
 }  // namespace
 
 Refinement Refine(const Case& whole, const std::string& effect, const std::string& target,
@@ -143,10 +154,7 @@ Refinement Refine(const Case& whole, const std::string& effect, const std::strin
     if (options.stop && options.stop->load()) throw Interrupted();
     if (options.progress) options.progress(f, text);
   };
-  EffectNamed(effect);  // unknown names are told first
-  if (!IsRefinable(effect))
-    throw InputError(
-        fmt::format("{} has no curve to refine, allowed: {}", effect, RefinableEffects()));
+  RequireRefinable(effect);
   Refinement out;
   if (std::optional<Case> seen = WithoutTestRecords(whole))
     out.seen = std::make_unique<const Case>(*std::move(seen));
@@ -157,7 +165,9 @@ Refinement Refine(const Case& whole, const std::string& effect, const std::strin
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   AdoptedRigText(ReadFile(c.rig_file), nominal, c.rig.effects);  // known before the long work
   progress(0.02, "noise floor");
-  const double n = Prepare(*out.model, thin, nominal);
+  const Comparison before = Prepare(*out.model, thin, nominal);
+  const double n = before.effective_sample_size;
+  out.warnings = before.left_out;
   progress(0.1, "rig parameters");
   NamedLaw law = FitNamedLaw(thin, effect, target, n, progress);
   const EffectInstance named = law.fit.hypothesis.rig.effects[law.index];

@@ -146,7 +146,7 @@ class Runs(Folder):
             with open("/proc/self/statm") as f:
                 return int(f.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
         scenario = ambrig.load(self.write("s.toml", SHORT.replace("0.004", "0.001")))
-        runs = 10000 if os.environ.get("AMBRIG_DEAR") else 400
+        runs = 10000 if os.environ.get("AMBRIG_SLOW_TESTS") else 400
         for _ in range(runs // 4):
             ambrig.run(scenario)
         before = resident()

@@ -88,8 +88,9 @@ void ReadTemplate(const TomlTable& t, StatorParameters& p, std::vector<Tolerance
     constexpr Range kCone{"deg", -80, 80, "of the gap's normal out of the plane"};
     p.cone_deg = Within(t, "cone_deg", p.cone_deg != 0 ? p.cone_deg : kRequired, kCone);
   }
-  if (pattern.magnet && t.Has("bias") && p.bias.mmf == 0)
-    t.Fail("bias", "has mmf = 0 A, allowed: any but 0");
+  if (const auto bias = t.Table("bias"); pattern.magnet && bias && p.bias.mmf == 0)
+    t.Fail("bias", bias->Has("mmf") ? "has mmf = 0 A, allowed: any but 0"
+                                    : "has no mmf, allowed: { mmf = A, length = m, area = m2 }");
   if (pattern.magnet && p.bias.mmf == 0)
     t.Fail("bias", "is missing, allowed: { mmf = A, length = m, area = m2, mu_r = 1.05 }");
 }

@@ -143,6 +143,13 @@ void ReadRotor(const TomlTable& t, RigParameters& rig) {
            fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
                        "body has more)",
                        rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
+  constexpr double kLargestRadius = 10;  // of gyration [m]: no shaft of a rig is longer than 30 m
+  const double most = kLargestRadius * kLargestRadius * rig.rotor.mass;
+  if (rig.rotor_kind == "rigid" && rig.rotor.inertia_transverse > most)
+    t.Fail("inertia_transverse",
+           fmt::format("= {:g} kg m2 of {:g} kg, allowed: at most {:g} (a radius of gyration of "
+                       "{:g} m)",
+                       rig.rotor.inertia_transverse, rig.rotor.mass, most, kLargestRadius));
 }
 
 void SetShaft(RigParameters& rig, std::size_t parameter, double value) {

@@ -96,7 +96,7 @@ TEST_F(Help, FootersAreTheCommandsOwn) {
 struct Examples {
   const char* command;
   std::vector<const char*> before = {};  // what the help says to do first
-  bool dear = false;                     // minutes: only with AMBRIG_DEAR=1 (nightly)
+  bool slow = false;                     // minutes: only with AMBRIG_SLOW_TESTS=1 (nightly)
   bool endless = false;                  // runs until Ctrl-C: tests/workbench
 };
 
@@ -144,8 +144,8 @@ class HelpExamples : public Help, public ::testing::WithParamInterface<Examples>
 TEST_P(HelpExamples, RunAsTheyStand) {
   const Examples& e = GetParam();
   if (e.endless) GTEST_SKIP() << "runs until Ctrl-C: tests/workbench starts it";
-  if (e.dear && std::getenv("AMBRIG_DEAR") == nullptr)
-    GTEST_SKIP() << "takes minutes: AMBRIG_DEAR=1 runs it";
+  if (e.slow && std::getenv("AMBRIG_SLOW_TESTS") == nullptr)
+    GTEST_SKIP() << "takes minutes: AMBRIG_SLOW_TESTS=1 runs it";
   for (const char* first : e.before) {
     const Outcome o = Ambrig(first);
     ASSERT_EQ(o.exit, 0) << first << "\n" << o.text;

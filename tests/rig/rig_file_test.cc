@@ -225,6 +225,8 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
               HasSubstr("both letters N and S"));
   EXPECT_THAT(Message("inertia_polar = { value = 0.0042", "inertia_polar = { value = 0.09"),
               HasSubstr("rotor.inertia_polar = 0.09 kg m2, allowed: at most twice"));
+  EXPECT_THAT(Message("inertia_transverse = { value = 0.036", "inertia_transverse = { value = 1e6"),
+              HasSubstr("rotor.inertia_transverse = 1e+06 kg m2 of 4.2 kg, allowed: at most 420"));
   EXPECT_THAT(Message("sensor = { z = -0.135", "sensor = { z = -0.9"),
               HasSubstr("bearings.A.sensor: has z = -0.9 m, allowed: on the shaft"));
   EXPECT_THAT(Message("adc_samples_per_period = 18", "adc_samples_per_period = 17.5"),

@@ -3,15 +3,15 @@
 //
 //   node budgets.mjs AMBRIG SOURCE_FOLDER
 //
-// Times tell something only on a machine of their own: without AMBRIG_DEAR=1 (nightly) it measures nothing and ends with exit code 77. A time is the
+// Times tell something only on a machine of their own: without AMBRIG_SLOW_TESTS=1 (nightly) it measures nothing and ends with exit code 77. A time is the
 // best of some attempts; one over its budget fails, unless a thread got less than 0.8 of a core (others kept the machine busy).
 import {readdirSync, readFileSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
 import {assert, folder, inFolder, openBrowser, say, source, startServer, write} from './harness.mjs';
 import {writeRecord} from './mat_file.mjs';
 
-if (!process.env.AMBRIG_DEAR) {
-  say('measured with AMBRIG_DEAR=1 only');
+if (!process.env.AMBRIG_SLOW_TESTS) {
+  say('measured with AMBRIG_SLOW_TESTS=1 only');
   rmSync(folder, {recursive: true});
   process.exit(77);
 }

@@ -42,6 +42,16 @@ TEST_F(Outputs, CarryAMark) {
   EXPECT_TRUE(Made("a.csv", "t,x\n0,1\n"));  // beside a.json of ours
 }
 
+// Commands take speeds in rpm, Hz or rad/s; one that names its unit is the same for all.
+TEST(SpeedIn, AUnitIsConvertedAndABareNumberStays) {
+  EXPECT_EQ(SpeedIn("3000rpm", "Hz"), "50");
+  EXPECT_EQ(SpeedIn("50 Hz", "rpm"), "3000");
+  EXPECT_NEAR(std::stod(SpeedIn("50Hz", "rad/s")), 314.159265358979, 1e-10);
+  EXPECT_EQ(SpeedIn("3000", "Hz"), "3000");
+  EXPECT_EQ(SpeedIn("fast", "Hz"), "fast");
+  EXPECT_THAT(ErrorText<InputError>([] { SpeedIn("3 mm", "Hz"); }), HasSubstr("mm"));
+}
+
 TEST_F(Outputs, TheMarkIsTheFirstKey) {
   const auto json = nlohmann::ordered_json::parse(MarkedJson({{"x", 1}, {"y", 2}}));
   EXPECT_EQ(json.begin().key(), "made_by");

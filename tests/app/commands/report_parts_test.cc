@@ -27,7 +27,8 @@ TEST(Format, SiPrefixes) {
   EXPECT_EQ(FormatSi(-1.75e-3, "H"), "-1.75" + kGap + "mH");
   EXPECT_EQ(FormatSi(999.96e-6, "m"), "1" + kGap + "mm");  // rounds over the edge of a prefix
   EXPECT_EQ(FormatSi(0, "V"), "0" + kGap + "V");
-  EXPECT_EQ(FormatSi(1e-310, "s"), "1e-298" + kGap + "ps");  // smaller than a normal double
+  EXPECT_EQ(FormatSi(1e290, "m"), "1e+290" + kGap + "m");
+  EXPECT_EQ(FormatSi(1e-310, "s"), "1e-310" + kGap + "s");  // smaller than a normal double
   EXPECT_EQ(FormatSi(12000, "rpm", 5), "12" + kThin + "000" + kGap + "rpm");
   EXPECT_EQ(FormatSi(std::nan(""), "A"), "–");  // what was not measured has no unit
   EXPECT_EQ(FormatSi(0.5, "-"), "0.5");
@@ -183,6 +184,8 @@ TEST(Screen, WrapsAtSpacesAndKeepsPathsWhole) {
             "        four");
   EXPECT_EQ(Wrapped("see /a/very/long/path/that/stays.toml", 2, 12),
             "see\n  /a/very/long/path/that/stays.toml");
+  EXPECT_EQ(Wrapped("A.x is wrong; to mend it: use = false", 2, 12),
+            "A.x is\n  wrong;\n  to mend it: use = false");
   EXPECT_EQ(Wrapped("it is 99.9 % sure", 2, 10), "it is\n  99.9 %\n  sure");
   EXPECT_EQ(ScreenWidth("\033[32mµm\033[0m"), 2u);
   EXPECT_EQ(Shortened("abcdefgh", 6), "abc...");

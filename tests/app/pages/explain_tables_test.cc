@@ -73,6 +73,8 @@ TEST(ExplainTables, ASecondRoundIsCalledOverfittingUnlessItWasTaken) {
     return testing::Words(TablesPage([&](HtmlReport& r) { AddRanking(r, e); }));
   };
   EXPECT_THAT(words(), HasSubstr("the improvement may be due to overfitting"));
+  e.second_beside = {"sensor-gain at A.x"};
+  EXPECT_THAT(words(), HasSubstr("one more effect beside sensor-gain at A.x."));
   e.adopted.push_back(e.second_round[0].effect);
   EXPECT_THAT(words(), HasSubstr("The green one met the acceptance criterion as well."));
 }

@@ -97,6 +97,8 @@ TEST_F(CaseChannels, ALateColumnIsMovedBack) {
   EXPECT_NEAR(x[0], 3e-6, 1e-18);
   EXPECT_NEAR(x[1], 4e-6, 1e-18);
   EXPECT_TRUE(std::isnan(x[2]) && std::isnan(x[3]));
+  EXPECT_THAT(Message("\"A.x\" = { late = 1e9 }\n"),
+              HasSubstr("late = 1e+09 s, allowed: less than the 0.004 s of log.csv"));
   r = Mapped("\"A.x\" = { late = -0.001 }\n");
   EXPECT_TRUE(std::isnan(r.Find("A.x")->samples[0]));
   EXPECT_NEAR(r.Find("A.x")->samples[1], 1e-6, 1e-18);

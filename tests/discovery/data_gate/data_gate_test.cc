@@ -106,6 +106,7 @@ TEST(DataGate, AStuckColumnThatWasLeftOutIsNamed) {
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].fault, "freeze");
     EXPECT_EQ(faults[0].channel, "B.i3");
+    EXPECT_EQ(faults[0].mend, "channels.\"B.i3\" = { use = false }");
     const Record& data = c.records[r].data;
     EXPECT_NEAR(faults[0].seconds, static_cast<double>(data.rows()) / data.rate, 1e-9);
   }

@@ -125,6 +125,25 @@ TEST(GateFactors, AMovingColumnShowsAnyFactorThatNoSensorHas) {
   ExpectUnits(kStepRecord, "A.x", {0.3, 3.3}, 0.05);
 }
 
+// Micrometres without a unit: the file rounds such numbers more coarsely than the shaft moves, and a prefix of a thousand
+// leaves little as well.
+TEST(GateFactors, APositionInAFarUnitShowsWhichOne) {
+  ExpectUnits(kStepRecord, "A.x", {1e3, 1e4, 1e5, 1e6, 1e9});
+  ExpectUnits("multisine at 60 Hz", "A.y", {1e3, 1e6});
+}
+
+TEST(GateFactors, AllPositionsInMicrometresAreNamedWithTheirUnit) {
+  Case c = Measured();
+  for (const char* axis : {"A.x", "A.y", "B.x", "B.y"})
+    for (double& v : SamplesOf(c, kStepRecord, axis)) v *= 1e6;
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 4U);
+  for (const DataFault& f : faults) {
+    EXPECT_NEAR(f.factor, 1e6, 1e-3);
+    EXPECT_TRUE(f.mend.ends_with("unit = \"um\" }")) << f.mend;
+  }
+}
+
 // A coil's bias with little movement, another one in each run: a coil that had such a current would move the others.
 TEST(GateFactors, ALevelShowsAnyFactorThatNoSensorHas) {
   ExpectUnits(kStepRecord, "A.i2", {0.061, 4.07}, 0.02);

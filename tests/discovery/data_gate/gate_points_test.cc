@@ -1,4 +1,4 @@
-// Mistakes in frequency responses and static tables are named; what effects do to them is not.
+// Mistakes in frequency responses are named; what effects do to them is not.
 #include "discovery/data_gate/gate_points.h"
 
 #include <fmt/format.h>
@@ -10,7 +10,6 @@
 
 #include "core/math/constants.h"
 #include "discovery/model/response_predictor.h"
-#include "discovery/model/static_predictor.h"
 #include "effects/catalogue.h"
 #include "tests/discovery/bench_case.h"
 #include "tests/discovery/data_gate/gate_case.h"
@@ -61,10 +60,21 @@ std::string FileOf(const std::vector<double>& f, const std::vector<std::vector<C
   return text;
 }
 
-/// Faults told of the responses of the spindle with these effects, as `write` writes them.
+/// The record with a line that was pasted into its table, in place of what it says of the compliance.
+std::string WithLine(const std::string& line) {
+  if (!line.starts_with("responses.")) {
+    std::string record = kRecord;
+    return record.insert(record.find("[record.responses]"), line + "\n");
+  }
+  std::string record = kRecord;
+  const std::size_t at = record.find("\"A.x/A.x.force\"");
+  return record.replace(at, record.find('\n', at) - at, line.substr(line.find('"')));
+}
+
+/// Faults told of the responses of the spindle with these effects, as `write` writes them; `line`: pasted into the record.
 std::vector<DataFault> FaultsOfResponses(const Write& write,
                                          const std::vector<EffectInstance>& effects = {},
-                                         double sd = 0.01) {
+                                         double sd = 0.01, const std::string& line = "") {
   const TemporaryFolder folder;
   const std::vector<double> f = Frequencies();
   const std::vector<std::vector<Complex>> ones(2, std::vector<Complex>(f.size(), 1));
@@ -78,7 +88,7 @@ std::vector<DataFault> FaultsOfResponses(const Write& write,
   const auto& named = blank.records[0].responses.responses;
   if (named[0].name() != "A.x/A.x.force") std::swap(H[0], H[1]);
   WriteBytes(folder.File("a.csv"), FileOf(f, H, write, sd));
-  return FaultsOf(CaseOf(folder, kRecord));
+  return FaultsOf(CaseOf(folder, line.empty() ? kRecord : WithLine(line)));
 }
 
 /// The change of the trace of the compliance alone.
@@ -106,6 +116,45 @@ TEST(GatePoints, SoundResponsesPass) {
 TEST(GatePoints, SignsAndConjugates) {
   ExpectOfCompliance(OfCompliance([](double, Complex v) { return -v; }), "sign", -1);
   ExpectOfCompliance(OfCompliance([](double, Complex v) { return std::conj(v); }), "sign", -1);
+}
+
+/// The faults of the compliance that are told, and those that are left once the first line is in the case.
+void ExpectMended(const Write& write, const std::string& line) {
+  const auto faults = FaultsOfResponses(write);
+  ASSERT_EQ(faults.size(), 1U) << line;
+  EXPECT_NE(faults[0].mend.find(line), std::string::npos) << faults[0].mend;
+  const auto left = FaultsOfResponses(write, {}, 0.01, faults[0].mend);
+  EXPECT_TRUE(left.empty()) << FaultText(left[0]);
+}
+
+TEST(GatePoints, LinesThatMendPhases) {
+  ExpectMended(OfCompliance([](double, Complex v) { return std::conj(v); }), "conjugate = true");
+  ExpectMended(
+      OfCompliance([](double f, Complex v) { return v * std::polar(1.0, -2 * kPi * f * 2e-3); }),
+      "late = 0.00");
+  ExpectMended(OfCompliance([](double, Complex v) {
+                 return std::polar(std::abs(v), kPi / 180 * std::arg(v));
+               }),
+               "phase_gain = 57.2957795");
+}
+
+TEST(GatePoints, TheLineThatMendsFrequencies) {
+  ExpectMended(
+      [](char, double f, Complex v) {
+        return Point{2 * kPi * f, v};
+      },
+      "frequency_gain = 0.159154943");
+}
+
+// What a file has lost no key of a case brings back.
+TEST(GatePoints, WhatNoKeyMendsIsToBeCorrectedInTheFile) {
+  const auto faults = FaultsOfResponses(OfCompliance(
+      [](double, Complex v) { return std::polar(std::sqrt(std::abs(v)), std::arg(v)); }));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_TRUE(faults[0].mend.empty());
+  EXPECT_NE(FaultText(faults[0]).find("no key of a case mends it: write its magnitudes"),
+            std::string::npos)
+      << FaultText(faults[0]);
 }
 
 TEST(GatePoints, TheLineThatMendsASign) {
@@ -169,64 +218,6 @@ TEST(GatePoints, EffectsInResponsesPass) {
     const auto faults = FaultsOfResponses(OfCompliance([](double, Complex v) { return v; }), {e});
     EXPECT_TRUE(faults.empty()) << name << ": " << FaultText(faults[0]);
   }
-}
-
-constexpr const char* kTable =
-    "[[record]]\ndata = \"t.csv\"\nkind = \"static\"\nsd = { \"A.fx\" = 0.02, \"A.fy\" = 0.02 }\n";
-
-/// Faults told of a table of forces over positions and two currents; `write` changes a row before it is written:
-/// x [m], i1 [A], i3 [A], fx [N], fy [N].
-std::vector<DataFault> FaultsOfTable(const std::function<void(std::vector<double>&)>& write) {
-  const TemporaryFolder folder;
-  std::vector<std::vector<double>> rows;
-  for (const double x : {-5e-5, 0.0, 6e-5})
-    for (const double i1 : {0.5, 1.0, 1.8})
-      for (const double i3 : {0.3, 1.5}) rows.push_back({x, i1, i3, 0, 0});
-  const auto file = [&](bool changed) {
-    std::string text = "A.x [m],A.i1 [A],A.i3 [A],A.fx [N],A.fy [N]\n";
-    for (std::vector<double> row : rows) {
-      if (changed) write(row);
-      text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row[0], row[1], row[2], row[3],
-                          row[4]);
-    }
-    WriteBytes(folder.File("t.csv"), text);
-    return CaseOf(folder, kTable);
-  };
-  const Case blank = file(false);
-  std::vector<std::vector<double>> columns;
-  EXPECT_TRUE(StaticPredictor(blank, blank.records[0]).Predict(blank.rig, columns));
-  std::mt19937 draw(9);
-  std::normal_distribution<double> noise(0, 0.02);
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    for (std::size_t o = 0; o < 2; ++o)
-      rows[k][3 + o] = columns[o][k] * blank.records[0].table.sd[o][k] + noise(draw);
-  return FaultsOf(file(true));
-}
-
-void ExpectOfTable(const std::function<void(std::vector<double>&)>& write,
-                   const std::vector<std::string>& columns, double factor) {
-  const auto faults = FaultsOfTable(write);
-  ASSERT_EQ(faults.size(), columns.size()) << columns[0] << " " << factor;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    EXPECT_EQ(faults[k].fault, factor < 0 ? "sign" : "unit") << FaultText(faults[k]);
-    EXPECT_EQ(faults[k].channel, columns[k]);
-    EXPECT_NEAR(faults[k].factor, factor, 0.02 * std::abs(factor));
-    EXPECT_FALSE(faults[k].mend.empty());
-  }
-}
-
-TEST(GatePoints, FactorsOfTables) {
-  EXPECT_TRUE(FaultsOfTable([](std::vector<double>&) {}).empty());
-  ExpectOfTable([](auto& row) { row[3] *= 1e-3; }, {"A.fx"}, 1e-3);
-  ExpectOfTable([](auto& row) { row[4] *= -1; }, {"A.fy"}, -1);
-  ExpectOfTable([](auto& row) { row[3] *= 2.3; }, {"A.fx"}, 2.3);
-  // larger forces in both directions are the machine's
-  EXPECT_TRUE(FaultsOfTable([](auto& row) { row[3] *= 1.7, row[4] *= 1.7; }).empty());
-}
-
-TEST(GatePoints, WhatWasSetInATable) {
-  ExpectOfTable([](auto& row) { row[1] *= 1e-3, row[2] *= 1e-3; }, {"A.i1", "A.i3"}, 1e-3);
-  ExpectOfTable([](auto& row) { row[0] *= -1; }, {"A.x"}, -1);
 }
 
 }  // namespace

@@ -42,11 +42,7 @@ Rival RivalWith(const TrialRecord& trial, const EffectInstance& e, double precis
 struct Views {
   TrialRecord trial = HeldTrial();
   std::vector<double> nothing = *trial.model->Predict(Nothing(trial).hypothesis);
-  RivalView Of(const Rival& r) {
-    RivalView view;
-    EXPECT_TRUE(ViewOf(trial, r, nothing, &view));
-    return view;
-  }
+  RivalView Of(const Rival& r) { return ViewOf(trial, r, nothing).value(); }
 };
 
 // An offset b read in n rows, its number and its law known well: b/floor sqrt(n) standard
@@ -140,6 +136,8 @@ TEST(Safety, RefusesAnOrbitNearTheStops) {
   // the step is reached, and even an undamped loop would overshoot to no more than twice of it
   EXPECT_GT(a.largest_orbit, 1.9e-5);
   EXPECT_LT(a.largest_orbit, 4e-5);
+  EXPECT_EQ(a.orbit_at, "A");
+  EXPECT_NEAR(a.orbit_share, a.largest_orbit / (0.6 * 2e-4), 1e-9);
   const SafetyResult b = CheckSafety(wild, Nothing(wild), {});
   EXPECT_FALSE(b.safe);
   EXPECT_FALSE(b.reason.empty());

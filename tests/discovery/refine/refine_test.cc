@@ -109,6 +109,7 @@ TEST(Refine, NamesWhatCanBeRefined) {
   const Case c = MeasuredBursts(12);
   for (const auto& [effect, target, word] : {std::tuple{"loop-delay", "rig", "has no curve"},
                                              std::tuple{"eddy-curents", "", "did you mean"},
+                                             std::tuple{"nix", "", "nix is no effect, allowed: "},
                                              std::tuple{"saturation", "C", "no such target"}})
     try {
       Refine(c, effect, target, "/tmp/refined.toml", {});

@@ -106,6 +106,8 @@ TEST(StatorFile, MistakesAreOneLine) {
       HasSubstr("bias: is missing"));
   EXPECT_THAT(with(magnet, "mmf = 800.0", "mmf = 0.0"),
               HasSubstr("bearings.A.bias: has mmf = 0 A, allowed: any but 0"));
+  EXPECT_THAT(with(magnet, "mmf = 800.0, ", ""),
+              HasSubstr("bearings.A.bias: has no mmf, allowed: { mmf = A"));
   // Eight coils whose common current meets the magnet: little but leakage.
   EXPECT_THAT(with(magnet, "coils = \"pair\"", "coils = \"pole\""),
               HasSubstr("for bearing A has a pattern of currents with"));
