@@ -76,7 +76,11 @@ bool EffectSelection::AdoptBest(FitResult& now, int round) {
   adopted_.AddLastOf(now);
   log_.Step(Named(best->effect), now);
   // The model with the effect may hold a rotor that the rig file's loses: then all rows count.
-  if (models_.CountWhatHolds(now.hypothesis)) now = models_.FitFrom(now.hypothesis);
+  if (models_.CountWhatHolds(now.hypothesis)) {
+    FitResult again = models_.FitFrom(now.hypothesis);
+    if (!again.Stands()) again = models_.At(now.hypothesis);
+    if (again.Stands()) now = std::move(again);
+  }
   coils_.Renew(now, adopted_.all());
   adopted_one_();
   return true;

@@ -43,6 +43,14 @@ bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
          next.ratio_validate * next.ratio_validate - 1 > 4 * std::max(left, kAtFloor);
 }
 
+/// Largest distance of a rig parameter from its nominal value [sd].
+double LargestShift(const Hypothesis& h) {
+  double most = 0;
+  for (std::size_t k = 0; k < h.free.size(); ++k)
+    if (h.free[k].effect < 0 && h.free[k].sd > 0) most = std::max(most, std::abs(h.Coordinate(k)));
+  return most;
+}
+
 class Ranker {
  public:
   Ranker(const RoundSetting& s, const FitResult& now, int round)
@@ -63,6 +71,7 @@ class Ranker {
     const ResidualPeaks peaks =
         predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
     out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
+    ScreenFromNominal();
     FitThePromising();
     Sort();
     FitRivalsOfTheBest();
@@ -80,6 +89,29 @@ class Ranker {
   }
 
  private:
+  /// Rig parameters that had to move far may stand in for an effect that changes what they change (a
+  /// longer gap for the reluctance of the iron). The fit so far then leaves little to show that effect;
+  /// the rig file's own parameters do.
+  void ScreenFromNominal() {
+    constexpr double kFar = 4;         // [sd]
+    constexpr std::size_t kTried = 3;  // effects
+    if (round_ > 0 || LargestShift(now_.hypothesis) < kFar) return;
+    FitOptions point;
+    point.iterations = 0;
+    point.effective_sample_size = s_.effective_sample_size;
+    nominal_ = Fit(s_.model, Hypothesis::Base(s_.model.data().rig), point);
+    if (!nominal_.Stands()) return;
+    ScreenOptions screen;
+    screen.effective_sample_size = s_.effective_sample_size;
+    screen.coarse = true;
+    SignatureBank bank;
+    std::vector<Candidate> found = Screen(s_.model, nominal_, ResidualPeaks(), screen, bank);
+    std::erase_if(found, [&](const Candidate& c) { return c.score > here_; });
+    found.resize(std::min(found.size(), kTried));
+    for (Candidate& c : found) c.from_nominal = true;
+    out_.screened.insert(out_.screened.begin(), found.begin(), found.end());
+  }
+
   void FitThePromising() {
     const std::vector<Candidate>& candidates = out_.screened;
     std::size_t next = 0;
@@ -127,11 +159,16 @@ class Ranker {
     s_.progress(0.6 + 0.07 * std::min(4.0, static_cast<double>(ranking_.size())),
                 "fitting " + Named(c.effect));
     RankedEffect r;
-    r.fit = FitBriefly(s_.model, now_, c, s_.effective_sample_size);
+    r.fit = FitBriefly(s_.model, c.from_nominal ? nominal_ : now_, c, s_.effective_sample_size);
     r.screened_ratio = c.ratio_validate;
     if (!r.fit.converged) return;
     Note(r);
-    ranking_.push_back(std::move(r));
+    const auto same = std::ranges::find_if(
+        ranking_, [&](const RankedEffect& o) { return IsSameName(o.effect, r.effect); });
+    if (same == ranking_.end())
+      ranking_.push_back(std::move(r));
+    else if (r.score < same->score)
+      *same = std::move(r);
   }
 
   /// A short fit may end on the way, and where both the best and the next explain most of the error, which of them it is that
@@ -180,6 +217,7 @@ class Ranker {
 
   const RoundSetting& s_;
   const FitResult& now_;
+  FitResult nominal_;  // the rig file's own parameters, where these were screened too
   int round_;
   const double here_ = Score(s_.model, now_, s_.effective_sample_size);
   const double motion_ = WorstMotionRatio(s_.model, now_.residual);

@@ -29,6 +29,13 @@ bool HasFrequency(const Hypothesis& h, const FreeParameter& p) {
                      [](const EffectParameter& row) { return row.name == "frequency"; });
 }
 
+/// Whether sensitivities of so many columns were lent: a fit that lost the rotor has none to lend.
+bool Lends(const FitOptions& options, const CaseModel& model, std::size_t columns) {
+  return options.base_jacobian &&
+         options.base_jacobian->rows() == static_cast<Eigen::Index>(model.size()) &&
+         options.base_jacobian->cols() >= static_cast<Eigen::Index>(columns);
+}
+
 }  // namespace
 
 FitProblem::FitProblem(const CaseModel& model, const Hypothesis& start, const FitOptions& options)
@@ -38,11 +45,13 @@ FitProblem::FitProblem(const CaseModel& model, const Hypothesis& start, const Fi
       look_(FittedRecords(model, options)),
       p_(start.free.size()),
       base_at_(start) {
+  const bool lends = Lends(options, model, options.lent);
   for (std::size_t k = 0; k < p_; ++k)
-    if (start.free[k].effect < 0 || (options.base_jacobian && k < options.lent))
+    if (start.free[k].effect < 0 || (lends && k < options.lent))
       base_.push_back(k);
     else
       (HasFrequency(start, start.free[k]) ? tuned_ : effect_).push_back(k);
+  reuse_ = Lends(options, model, base_.size());
 }
 
 void FitProblem::SetMisfitWeight(double ratio) {

@@ -129,8 +129,10 @@ void Tutorial::ExpectSolenoidsSleeve() const {
   EXPECT_EQ(explained["set"][0]["effect"], "eddy-sleeve");
   ASSERT_EQ(explained["adopted"][0]["effect"], "eddy-sleeve");
   // what is adopted is the most probable name of its own set
-  for (const auto& a : explained["adopted"])
-    if (a.contains("set")) EXPECT_EQ(a["set"][0]["effect"], a["effect"]);
+  for (const auto& a : explained["adopted"]) {
+    if (!a.contains("set")) continue;
+    EXPECT_EQ(a["set"][0]["effect"], a["effect"]);
+  }
   EXPECT_GT(explained["nominal_ratio_validate"], 10);
   EXPECT_LT(explained["final_ratio_validate"], 1.2);
   // One time constant through L(100 Hz) and L(1 kHz) of the table: 591 Hz at 4.1 mm, 343 Hz at 0.

@@ -14,9 +14,9 @@ Plan TwoNames() {
   Plan p;
   p.names = {"eddy-currents at A", "nothing"};
   p.separates = {{"eddy-currents at A", "nothing", 6.25, 0.9991, 30, 30}};
-  p.tried = {{"current pulses", 0.5, 0, 6.25, ""},
-             {"multisine <levitated>", 0.25, 4.2e-5, 3.1, ""},
-             {"run-up", 1, 1.9e-4, 0, "largest orbit 190 um, allowed 100 um"}};
+  p.tried = {{"current pulses", 0.5, 0, "", 0, 6.25, ""},
+             {"multisine <levitated>", 0.25, 4.2e-5, "A", 0.42, 3.1, ""},
+             {"run-up", 1, 1.9e-4, "A", 1.9, 0, "largest orbit 190 um, allowed 100 um"}};
   p.title = "current pulses";
   p.toml = "name = \"pulses\"  # <TOML> & text\n";
   p.text = "# The card\nHold the rotor and pulse coil 1.\n";

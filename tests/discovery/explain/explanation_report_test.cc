@@ -9,24 +9,6 @@
 namespace ambrig {
 namespace {
 
-TEST(ParameterShifts, AreTheRigsOwnBeyondTheirSd) {
-  FreeParameter gap;
-  gap.path = "bearings.A.gap";
-  gap.start = gap.value = 4e-4;
-  gap.sd = gap.step = 1e-5;
-  gap.lo = 1e-4;
-  gap.hi = 1e-3;
-  Hypothesis h;
-  h.free = {gap, gap, gap};
-  h.free[0].value = 4.15e-4;
-  h.free[1].value = 4.05e-4;
-  h.free[2].value = 3.7e-4;
-  h.free[2].effect = 0;
-  const std::vector<std::string> shifts = ParameterShifts(h);
-  ASSERT_EQ(shifts.size(), 1u);
-  EXPECT_EQ(shifts[0], "bearings.A.gap +1.50 sd");
-}
-
 class ReportOfASearch : public testing::SearchParts {};
 
 TEST_F(ReportOfASearch, WrongDataNameNothingThatWasAdopted) {
