@@ -13,10 +13,16 @@ double ExplainedShare(double before, double after) {
 
 double StageRatios::Answered() const { return std::max({fit, validate, worst_record / 1.1}); }
 
+namespace {
+constexpr double kExcessOfLost = 1e12;  // excess where the rotor is lost: it outweighs every error
+}
+
 double ShareOfAllRecords(const StageRatios& before, const StageRatios& after) {
   constexpr double kShows = 1.1;             // ratio from which unseen records have a say
   constexpr double kMostBeyondUnseen = 0.5;  // of the share on them
-  const auto excess = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
+  const auto excess = [](double ratio) {
+    return std::clamp(ratio * ratio - 1, 0.0, kExcessOfLost);
+  };
   const double fit = excess(before.fit), unseen = excess(before.validate),
                of_fit = ExplainedShare(before.fit, after.fit),
                of_unseen = ExplainedShare(before.validate, after.validate);

@@ -200,6 +200,9 @@ TEST(ShareOfAllRecords, WeighsEachKindByItsError) {
   const double root = std::sqrt(1.99);  // leaves 0.99 of 99
   EXPECT_NEAR(ShareOfAllRecords({10, 2, 0}, {root, 1, 0}), (99 * 0.99 + 3) / 102, 1e-12);
   EXPECT_NEAR(ShareOfAllRecords({2, 2, 0}, {1, 2, 0}), 0.5, 1e-12);
+  // a rotor that is lost on unseen records outweighs what the fitted ones show
+  EXPECT_NEAR(ShareOfAllRecords({2, kInfinity, 0}, {2, 3, 0}), 1, 1e-9);
+  EXPECT_NEAR(ShareOfAllRecords({2, kInfinity, 0}, {1, kInfinity, 0}), 0, 1e-9);
 }
 
 TEST(ShareOfAllRecords, UnseenRecordsMayNotContradict) {
