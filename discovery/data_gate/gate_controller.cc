@@ -34,8 +34,23 @@ BridgedRecord ControllerRecord(const Record& data) {
   return BridgeMissing(data, kLoopsSettle, DrivesController);
 }
 
+/// rms of the error [A] without its largest values: single wrong samples, edges of steps.
+double LastingError(const ControllerAxis& a) {
+  constexpr double kLargest = 0.02;  // of the rows
+  std::vector<double> squares;
+  for (std::size_t k = 0; k < a.error.size(); ++k)
+    if (a.counts[k]) squares.push_back(a.error[k] * a.error[k]);
+  std::ranges::sort(squares);
+  squares.resize(squares.size() -
+                 static_cast<std::size_t>(kLargest * static_cast<double>(squares.size())));
+  double sum = 0;
+  for (const double square : squares) sum += square;
+  return squares.empty() ? 0 : std::sqrt(sum / static_cast<double>(squares.size()));
+}
+
 bool IsWrong(const ControllerAxis& a) {
-  return a.rms > kGrossError * kCurrentFloor && a.rms > kOfMovement * a.movement;
+  const double error = LastingError(a);
+  return error > kGrossError * kCurrentFloor && error > kOfMovement * a.movement;
 }
 
 /// Whether the program of the rig file is the one that computed the set-points: an axis of the case that moves agrees.
@@ -72,8 +87,28 @@ class InputTrial {
       : rig_(rig), scenario_(scenario), data_(data) {
     Scenario silent = scenario;
     silent.excitations.clear();
-    without_ = CountedErrors(ControllerAxes(rig, silent, data));
+    silent_ = ControllerAxes(rig, silent, data);
+    now_ = ControllerAxes(rig, scenario, data);
+    without_ = CountedErrors(silent_);
     before_ = (without_ + AnswerTo(0)).norm();
+  }
+  /// As Late, of whole rows, by the answer as it is at 0: nothing in the controller depends on time.
+  InputFit Shifted(long rows) const {
+    double cross = 0, square = 0, before = 0;
+    for (std::size_t a = 0; a < silent_.size(); ++a) {
+      const auto n = static_cast<long>(silent_[a].error.size());
+      for (long k = std::max(0L, rows); k < std::min(n, n + rows); ++k) {
+        const auto at = static_cast<std::size_t>(k), of = static_cast<std::size_t>(k - rows);
+        if (!silent_[a].counts[at]) continue;
+        const double answer = now_[a].error[of] - silent_[a].error[of];
+        cross += answer * silent_[a].error[at];
+        square += answer * answer;
+        before += silent_[a].error[at] * silent_[a].error[at];
+      }
+    }
+    if (square <= 0) return {1, static_cast<double>(rows), kInfinity};
+    const double left = std::max(0.0, before - cross * cross / square);
+    return {-cross / square, static_cast<double>(rows), std::sqrt(left) / before_};
   }
   InputFit Late(double rows) const {
     const Eigen::VectorXd answer = AnswerTo(rows);
@@ -89,6 +124,7 @@ class InputTrial {
   const RigParameters& rig_;
   const Scenario& scenario_;
   const BridgedRecord& data_;
+  std::vector<ControllerAxis> silent_, now_;  // without commands, with them
   Eigen::VectorXd without_;
   double before_ = 0;
 };
@@ -103,6 +139,12 @@ InputFit FitInput(const RigParameters& rig, const Scenario& scenario, const Brid
     if (fit.left < best.left) best = fit;
   };
   for (long late = -most; late <= most; ++late) try_late(static_cast<double>(late));
+  const long longest = std::lround(kLongestLag * data.record.rate);
+  InputFit far = best;
+  for (long late = -longest; late <= longest; ++late)
+    if (const InputFit fit = trial.Shifted(late); fit.left < far.left) far = fit;
+  if (std::abs(far.late) > static_cast<double>(most) && far.left < kOfInputNuisances * best.left)
+    best = trial.Late(far.late);
   for (const double step : {0.5, 0.25, 0.125}) {
     const double middle = best.late;
     try_late(middle - step);
@@ -179,7 +221,8 @@ void CheckController(const CaseModel& model, std::size_t record,
   const CaseRecord& r = model.data().records[record];
   const RigParameters& rig = model.data().rig;
   const bool explained = std::ranges::any_of(columns, &GateColumn::explained);
-  if (!out.empty() || explained || !r.scenario.faults.empty()) return;
+  if (!out.empty() || explained || r.imposed != Imposed::kNothing || !r.scenario.faults.empty())
+    return;
   if (!HasControllerBlock(rig, r.scenario, r.data)) return;
   const BridgedRecord data = ControllerRecord(r.data);
   const std::vector<ControllerAxis> axes = ControllerAxes(rig, r.scenario, data);

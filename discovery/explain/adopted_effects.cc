@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "discovery/search/effect_round.h"
+#include "discovery/shape/shape.h"
 
 namespace ambrig {
 
@@ -43,6 +44,12 @@ bool AdoptedEffects::IsBesideShape(const EffectInstance& e) const {
 
 bool AdoptedEffects::ShapeExplainsAll() const {
   return size() == 1 && shaped && shaped->Answered() < kShapeExplains;
+}
+
+bool AdoptedEffects::HoldMagnetisationOf(const EffectInstance& e) const {
+  return std::ranges::any_of(all_, [&](const EffectInstance& a) {
+    return a.target == e.target && ShareMagnetisation(a.name, e.name);
+  });
 }
 
 }  // namespace ambrig

@@ -58,7 +58,8 @@ bool EffectSelection::AdoptBest(FitResult& now, int round) {
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
     if (!r.fit.Stands()) return false;
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
-    if (!HasSize(r.fit, last) || IsDetailOf(adopted_.all(), FittedEffect(r.fit, last)))
+    if (!HasSize(r.fit, last) || IsDetailOf(adopted_.all(), FittedEffect(r.fit, last)) ||
+        adopted_.HoldMagnetisationOf(r.effect))
       return false;
     const double gain = models_.ScoreOf(now) - r.score;
     worth =

@@ -10,7 +10,7 @@ struct Candidate {
   EffectInstance effect;                     // where a full fit should start
   double score = 0;                          // smaller is better, in units of 2 log likelihood
   double ratio_fit = 0, ratio_validate = 0;  // predicted by the linear step
-  bool narrow = false;  // a resonance: the linear step says little, only a fit does
+  bool narrow = false;        // a resonance: the linear step says little, only a fit does
   bool from_nominal = false;  // beside the rig file's own parameters, not those of the fit so far
   // of the same effect at the same target, worse at first sight
   std::vector<EffectInstance> other_starts;

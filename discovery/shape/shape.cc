@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array<const char*, 4> kIron = {"saturation", "iron-reluctance", "eddy-currents",
                                               "hysteresis"};
+constexpr std::array<const char*, 3> kMagnetisation = {"saturation", "iron-reluctance", "bh-curve"};
 constexpr std::array<const char*, 4> kMotion = {"side-pull", "cross-coupling", "windage",
                                                 "coupling-misalignment"};
 constexpr const char* kReading = "sensor-gain";
@@ -43,6 +44,10 @@ bool IsRefinable(const std::string& effect) {
 }
 
 bool IsIronLaw(const std::string& effect) { return Holds(kIron, effect); }
+
+bool ShareMagnetisation(const std::string& a, const std::string& b) {
+  return Holds(kMagnetisation, a) && Holds(kMagnetisation, b);
+}
 
 bool IsMotionLaw(const std::string& effect) { return Holds(kMotion, effect); }
 

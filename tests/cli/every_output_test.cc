@@ -38,9 +38,9 @@ const Output kOutputs[] = {
     {"rotor", "OUT", "rotor convert examples/shaft/shaft.toml {}"},
     {"compare", "--series", "compare case.toml --series {}"},
     {"explain", "--law", "explain case.toml --law {}"},
-    {"adopt", "--output", "adopt case.toml sensor-gain --target A.x -o {}"},
-    {"refine", "--output", "refine case.toml saturation@A -o {}"},
-    {"plan", "--output", "plan case.toml -o {}"},
+    {"adopt", "--out", "adopt case.toml sensor-gain --target A.x -o {}"},
+    {"refine", "--out", "refine case.toml saturation@A -o {}"},
+    {"plan", "--out", "plan case.toml -o {}"},
     {"hide", "--out", "hide sensor-gain --rig rig.toml -o {}", "case.toml"},
     {"score", "--out", "score made -o {}", "made.json", "hide sensor-gain --rig rig.toml -o made"},
     {"practice", "--out", "practice rig.toml --cases 1 --make-only -o {}", "case-0001/case.toml"},
@@ -133,6 +133,9 @@ std::vector<std::pair<std::string, std::string>> OptionsOf(const std::string& co
   std::istringstream help(Shell(std::string(AMBRIG_BINARY) + " " + command + " --help").text);
   for (std::string line; std::getline(help, line);) {
     const auto at = line.find("--");
+    // the older of two names is not tried
+    if (const auto alias = line.find(",--", at); at < 8 && alias != std::string::npos)
+      line.erase(alias, line.find(' ', alias) - alias);
     if (line.starts_with("  -") && at < 8)
       out.emplace_back(line.substr(at, line.find_first_of(" :=", at) - at), line);
     else if (!line.starts_with("     "))

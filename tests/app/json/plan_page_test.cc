@@ -55,7 +55,8 @@ TEST(PlanPage, TheNamesBesideTheBarsAreNotCut) {
 // Scenarios that were refused stand in the table with their reason, without a bar.
 TEST(PlanPage, WhatWasRefusedIsSaidWithItsReason) {
   const std::string html = PlanPage(TwoNames()), words = testing::Words(html);
-  EXPECT_THAT(words, HasSubstr("\nrun-up\n1\n-\n190.0\nlargest orbit 190 um, allowed 100 um\n"));
+  EXPECT_THAT(words,
+              HasSubstr("\nrun-up\n1\n-\n190.0 at A\nlargest orbit 190 um, allowed 100 um\n"));
   EXPECT_THAT(words, HasSubstr("\ncurrent pulses\n0.5\n6.2\n-\nyes\n"));
   const auto bars = html.find("\"current pulses\"");
   ASSERT_NE(bars, std::string::npos);

@@ -68,5 +68,17 @@ TEST(AdoptedEffects, TheShapeOfOneLawMayExplainAll) {
   EXPECT_FALSE(adopted.ShapeExplainsAll());
 }
 
+// Saturation and reluctance of one iron are parts of one magnetisation curve; eddy currents are not.
+TEST(AdoptedEffects, HoldTheMagnetisationOfTheirBearing) {
+  const auto at = [](const char* effect, const char* target) {
+    return MakeInstance(EffectNamed(effect), target);
+  };
+  AdoptedEffects adopted(0);
+  adopted.AddLastOf(FitHolding({at("saturation", "B")}));
+  EXPECT_TRUE(adopted.HoldMagnetisationOf(at("iron-reluctance", "B")));
+  EXPECT_FALSE(adopted.HoldMagnetisationOf(at("iron-reluctance", "A")));
+  EXPECT_FALSE(adopted.HoldMagnetisationOf(at("eddy-currents", "B")));
+}
+
 }  // namespace
 }  // namespace ambrig

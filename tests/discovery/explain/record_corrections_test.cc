@@ -12,11 +12,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// Clocks late by these numbers of rows of the records at 12.5 kHz.
+/// Clocks late by these numbers of rows of the records.
 std::vector<NuisanceFound> ShiftsOf(const Case& c, const std::vector<double>& rows) {
   std::vector<NuisanceFound> found;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    found.push_back({c.records[r].data_file, kTimeShift, "s", rows[r] / 12500, 0});
+    found.push_back({c.records[r].data_file, kTimeShift, "s", rows[r] / c.records[r].data.rate, 0});
   return found;
 }
 
@@ -33,12 +33,16 @@ TEST(LateRows, ADelayOfTheRigIsTheSameInAllRecords) {
   EXPECT_FALSE(LateRows(c, ShiftsOf(c, {0.2, -0.3, 0.4})).has_value());
 }
 
-// More is a matter of the data gate.
-TEST(LateRows, MoreThanFourAreNotMoved) {
-  const Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
-  const auto rows = LateRows(c, ShiftsOf(c, {0, 4, 5}));
+// Four rows, or half a millisecond where that is more: larger shifts are a matter of the data gate.
+TEST(LateRows, MoreThanHalfAMillisecondIsNotMoved) {
+  Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
+  const double rate = 20000;
+  for (CaseRecord& r : c.records) r.data.rate = rate;
+  const auto rows = LateRows(c, ShiftsOf(c, {0, 10, 11}));
   ASSERT_TRUE(rows.has_value());
-  EXPECT_THAT(*rows, ElementsAre(0, 4, 0));
+  EXPECT_THAT(*rows, ElementsAre(0, 10, 0));
+  for (CaseRecord& r : c.records) r.data.rate = rate / 10;
+  EXPECT_THAT(LateRows(c, ShiftsOf(c, {0, 4, 5})).value(), ElementsAre(0, 4, 0));
 }
 
 TEST(RecordCorrections, SizesOfInputsMultiplyAndClocksAreTheLastOnes) {
