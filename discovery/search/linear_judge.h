@@ -10,7 +10,7 @@ struct Candidate {
   EffectInstance effect;                     // where a full fit should start
   double score = 0;                          // smaller is better, in units of 2 log likelihood
   double ratio_fit = 0, ratio_validate = 0;  // predicted by the linear step
-  bool narrow = false;  // a resonance: the linear step says little, only a fit does
+  bool narrow = false;        // a resonance: the linear step says little, only a fit does
   bool from_nominal = false;  // beside the rig file's own parameters, not those of the fit so far
   // of the same effect at the same target, worse at first sight
   std::vector<EffectInstance> other_starts;
@@ -31,9 +31,9 @@ class LinearJudge {
               double effective_sample_size);
 
   Candidate Single(const SignatureBank::Entry& entry) const;
-  /// Share of the squared error above the noise that an entry's linear step takes off the readings and
-  /// set-points of free rotors and off records that are not over time (0 to 1), of those that the bank
-  /// looks at; 0 where these hold less than half of it, 1 where there is none.
+  /// Share of the squared error above the noise that an entry's linear step takes off the readings
+  /// and set-points of free rotors and off records that are not over time (0 to 1), of those that
+  /// the bank looks at; 0 where these hold less than half of it, 1 where there is none.
   double MotionShare(const SignatureBank::Entry& entry) const;
   /// The amount of one signature that would be 3 sd of its own beside the rig parameters.
   double LeastVisible(const SignatureBank::Entry& entry, Eigen::Index column) const;
