@@ -5,8 +5,8 @@
 ///   below the lowest speed      SM = 17 (1 - 1/(AF - 1.5)) per cent of the lowest operating speed
 ///   above the highest speed     SM = 10 + 17 (1 - 1/(AF - 1.5)) per cent of the highest
 ///   first forward mode          log decrement > 0.1
-/// Source: published_values.md 4, with clauses of API RP 684 as another program quotes them; not read in
-/// the standards themselves.
+/// Source: published_values.md 4, with clauses of API RP 684 as another program quotes them; not
+/// read in the standards themselves.
 namespace ambrig {
 
 struct SeparationMargin {

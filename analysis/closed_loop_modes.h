@@ -3,8 +3,8 @@
 /// shape of the shaft. A mode is one of the rotor when the rotor's coordinates and speeds take part
 /// in it by at least 0.3 (participation: left times right eigenvector, sums to 1 over all states);
 /// the others belong to current loops, filters and integrators.
-/// Log decrement -2 pi Re s / Im s; whirl as in rotor/shaft/rotor_modes.h. Source: Schweitzer & Maslen
-/// 2009.
+/// Log decrement -2 pi Re s / Im s; whirl as in rotor/shaft/rotor_modes.h. Source: Schweitzer &
+/// Maslen 2009.
 #include "analysis/closed_loop.h"
 #include "rotor/shaft/rotor_modes.h"
 

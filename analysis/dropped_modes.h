@@ -1,10 +1,11 @@
 #pragma once
-/// What a run leaves out of a beam: the bending modes above `modes` of its [rotor]. A force at a magnet moves the
-/// shaft at the sensor by
+/// What a run leaves out of a beam: the bending modes above `modes` of its [rotor]. A force at a
+/// magnet moves the shaft at the sensor by
 ///   sum phi_k(z_magnet) phi_k(z_sensor)/(w_k² - w²)   over the bending modes k
-/// and the part of the dropped ones is their residual compliance, static (w = 0) and at the highest mode
-/// that is kept. With `static_correction` residual modes (rotor/shaft/residual_modes.h) carry the static part; lost
-/// is what they do not. Rigid motion and damping left out. Linear analyses of a shaft (analysis/shaft) drop nothing.
+/// and the part of the dropped ones is their residual compliance, static (w = 0) and at the highest
+/// mode that is kept. With `static_correction` residual modes (rotor/shaft/residual_modes.h) carry
+/// the static part; lost is what they do not. Rigid motion and damping left out. Linear analyses of
+/// a shaft (analysis/shaft) drop nothing.
 #include <optional>
 #include <string>
 #include <vector>

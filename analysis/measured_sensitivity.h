@@ -3,7 +3,8 @@
 /// of the nonlinear switching rig, and the command after the injection point, read back from the
 /// coils' set-points in the record, is divided by it. What a lightly damped mode still rings from
 /// the start of the sine is fitted along with its response, at the loop's own computed poles:
-/// waiting for a bending mode of 0.3 % would take minutes. Independent reference for analysis/sensitivity.h.
+/// waiting for a bending mode of 0.3 % would take minutes. Independent reference for
+/// analysis/sensitivity.h.
 #include <atomic>
 #include <complex>
 

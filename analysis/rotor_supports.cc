@@ -67,8 +67,9 @@ int InReduced(int coordinate, int kept, int modes) {
   return k < kept ? 4 + k + (coordinate % 2 ? 0 : modes) : -1;
 }
 
-/// The same with all bending modes of a beam that its elements carry, not only those that runs keep: what
-/// effects add to the kept coordinates stays. Of a rotor on a base or on mounts nothing changes.
+/// The same with all bending modes of a beam that its elements carry, not only those that runs
+/// keep: what effects add to the kept coordinates stays. Of a rotor on a base or on mounts nothing
+/// changes.
 RadialRotor WithWholeBeam(const RigParameters& rig, RadialRotor kept) {
   if (!rig.beam) return kept;
   constexpr int kMost = 60;

@@ -5,8 +5,9 @@
 ///   supported  K + Σ B k gap, k = k_p - k_s: the controller's proportional gain less the bearing's
 ///              negative stiffness; undamped, so that frequencies are those of modes, not of poles
 ///   map        the same with every radial bearing at one common k (undamped critical speed map)
-/// Radial coordinates only. A beam counts whole (up to 60 bending modes of the free shaft), whatever
-/// `modes` its runs in time keep; only a rotor on a base or on mounts has the modes of its runs. Source: docs/theory/rotor.md; API 684 for the map.
+/// Radial coordinates only. A beam counts whole (up to 60 bending modes of the free shaft),
+/// whatever `modes` its runs in time keep; only a rotor on a base or on mounts has the modes of its
+/// runs. Source: docs/theory/rotor.md; API 684 for the map.
 #include "analysis/linear/linear_plant.h"
 #include "rotor/shaft/rotor_modes.h"
 

@@ -26,8 +26,8 @@ std::vector<double> SlowFrequencies(double end) {
   return out;
 }
 
-/// Gains at which L touches -1: crossings of the negative real axis, |L| above or below one. Without
-/// an integrator L begins on that axis.
+/// Gains at which L touches -1: crossings of the negative real axis, |L| above or below one.
+/// Without an integrator L begins on that axis.
 void GainMargins(const std::vector<Complex>& L, AxisSensitivity& s) {
   s.gain_up = kInfinity;
   s.gain_down = 0;

@@ -1,10 +1,12 @@
 #pragma once
 /// Frequency responses of a closed loop between any two channels.
 ///
-/// Inputs    A.x.reference [m], A.x.force [N] (excitations of a scenario), A.x.sensor [m] (an error of
+/// Inputs    A.x.reference [m], A.x.force [N] (excitations of a scenario), A.x.sensor [m] (an error
+/// of
 ///           the reading), A.x.load [N] (a force on the rotor at the bearing's plane, continuous);
 ///           NAME.x.load [N] at a named plane of a beam rotor
-/// Outputs   A.x [m] (reading), A.x.command [N] (force asked for, excitation included), A.x.shaft [m]
+/// Outputs   A.x [m] (reading), A.x.command [N] (force asked for, excitation included), A.x.shaft
+/// [m]
 ///           (at the magnets), A.x.magnet [N] (force on the rotor), A.i1 [A] (coil current);
 ///             NAME.x [m]
 ///           shaft at a named plane

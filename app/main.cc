@@ -20,7 +20,8 @@ namespace {
 /// Output that was not read to its end (`ambrig parameters | head`) is no error.
 bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE; }
 
-/// The disk that standard output goes to is full or broken: all other outputs name their file themselves.
+/// The disk that standard output goes to is full or broken: all other outputs name their file
+/// themselves.
 bool CannotPrint(const std::system_error& e) {
   const int code = e.code().value();
   return code == ENOSPC || code == EDQUOT || code == EFBIG || code == EIO;

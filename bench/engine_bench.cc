@@ -112,7 +112,8 @@ void EngineInHalves(benchmark::State& state) {
 }
 BENCHMARK(EngineInHalves)->Unit(benchmark::kMillisecond);
 
-/// 20 s with everything on: the engine alone, and all that a user's command does, which records at 1 kHz.
+/// 20 s with everything on: the engine alone, and all that a user's command does, which records at
+/// 1 kHz.
 void EngineOfCommand(benchmark::State& state) {
   const Scenario scenario = Healthy(true, true, kOfCommand);
   SimulateOptions options;

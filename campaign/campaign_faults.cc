@@ -47,7 +47,8 @@ std::vector<std::vector<int>> CoilSets(const TomlTable& t) {
   return sets;
 }
 
-/// Of these sets, those that the bearing has the coils for. A set that a file lists must be one of them.
+/// Of these sets, those that the bearing has the coils for. A set that a file lists must be one of
+/// them.
 std::vector<std::vector<int>> SetsOf(const BearingParameters& b, const TomlTable& t) {
   std::vector<std::vector<int>> sets = CoilSets(t);
   const auto beyond = [&](const std::vector<int>& s) { return !s.empty() && s.back() > b.coils(); };

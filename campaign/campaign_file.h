@@ -56,8 +56,8 @@ struct Campaign {
   CommissioningPlan commissioning;    // of the plants
 
   std::size_t runs() const;
-  /// How many runs in a row are best made by one worker of so many: those of a plant, which share its commissioning, where
-  /// there are enough plants for all; else 1.
+  /// How many runs in a row are best made by one worker of so many: those of a plant, which share
+  /// its commissioning, where there are enough plants for all; else 1.
   std::size_t RunsTogether(std::size_t workers) const;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Why the rotor of a run touched down or dropped, told from what the machine could do and from what
-/// fault tolerance did until the first contact. The first that holds:
+/// Why the rotor of a run touched down or dropped, told from what the machine could do and from
+/// what fault tolerance did until the first contact. The first that holds:
 ///
 ///   bounced before         it touched before the first fault
 ///   load not carried       the coils left at the contact do not pull the load, margin < 1

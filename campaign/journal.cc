@@ -40,7 +40,8 @@ JournalHeader ParseHeader(std::string_view text, const std::string& path) {
   throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
 }
 
-/// Takes the rows of the journal at `path` into `content`. Detector studies keep rows of another table in a journal like this.
+/// Takes the rows of the journal at `path` into `content`. Detector studies keep rows of another
+/// table in a journal like this.
 JournalVisitor Into(JournalContent& content, const std::string& path, const RowCheck& check) {
   const auto header = [&content, path](std::string_view text) {
     content.header = ParseHeader(text, path);

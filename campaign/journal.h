@@ -1,6 +1,6 @@
 #pragma once
-/// The journal of a campaign (core/base/journal.h): one line for every finished run. A run whose line
-/// is damaged is done again.
+/// The journal of a campaign (core/base/journal.h): one line for every finished run. A run whose
+/// line is damaged is done again.
 #include <map>
 #include <mutex>
 #include <string>
@@ -32,7 +32,8 @@ bool HasJournal(const std::string& folder);
 
 class CampaignJournal {
  public:
-  /// Makes the folder, begins a journal or goes on with the one that is there: its rows are read, and checked by `check`.
+  /// Makes the folder, begins a journal or goes on with the one that is there: its rows are read,
+  /// and checked by `check`.
   /// @throws InputError when it is of another campaign or rig, in use, or cannot be written.
   CampaignJournal(const std::string& folder, const JournalHeader& header,
                   const RowCheck& check = CheckRow);

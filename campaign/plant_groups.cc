@@ -19,8 +19,8 @@ bool Harmed(const Row& r) {
   const int with = Rank(r.At("verdict"));
   const bool grown = r.Number("peak_orbit") > kHarmedOrbit * r.Number("orbit_without");
   if (without == "up") return with > 0 || grown;
-  // A rotor that bounces either way: whether the run ends in a contact, and then counts as a drop, is
-  // chance.
+  // A rotor that bounces either way: whether the run ends in a contact, and then counts as a drop,
+  // is chance.
   return with > Rank(without) && (grown || r.Number("false_actions") > 0);
 }
 

@@ -1,17 +1,17 @@
 #pragma once
 /// The plants of a campaign: healthy machines that each have effects which their controller and
-/// their fault detection do not know, and parameters sampled from the sd in the rig file. [plants] of
-/// a campaign file; docs/guide/campaign.md explains the keys by example.
+/// their fault detection do not know, and parameters sampled from the sd in the rig file. [plants]
+/// of a campaign file; docs/guide/campaign.md explains the keys by example.
 ///
 /// An effect of "low" size has the weak end of its usual range (`ambrig effects`), "high" the
 /// strong end, "typical" their geometric mean; what does not switch it on keeps its default. It
-/// acts on all radial bearings (or those that `bearings` names), on the rig, or on one coil, axis or
-/// plane that is sampled (of the bearings that are named, where it can). A mixture has some effects of
-/// the list, each between both ends (evenly in the logarithm).
+/// acts on all radial bearings (or those that `bearings` names), on the rig, or on one coil, axis
+/// or plane that is sampled (of the bearings that are named, where it can). A mixture has some
+/// effects of the list, each between both ends (evenly in the logarithm).
 ///
 /// What happens to a plant between its commissioning and its run, neither of which the detection is
-/// told: `warmer`, its copper has another temperature, and `sensor_drift`, the zeros of its position
-/// sensors have moved. A plant that is not commissioned has them too.
+/// told: `warmer`, its copper has another temperature, and `sensor_drift`, the zeros of its
+/// position sensors have moved. A plant that is not commissioned has them too.
 #include <string>
 #include <vector>
 
@@ -42,8 +42,8 @@ void ApplyPlant(const CampaignPlant& plant, RigParameters* rig);
 /// 1 + 0.00393 warmer, zeros of the sensors. The nominal values stay.
 void AgePlant(const CampaignPlant& plant, RigParameters* rig);
 
-/// "cutoff 300 Hz": what switches an effect on, at size "low", "typical" or "high". Empty for a name
-/// that is no effect's.
+/// "cutoff 300 Hz": what switches an effect on, at size "low", "typical" or "high". Empty for a
+/// name that is no effect's.
 std::string EffectSizeText(const std::string& effect, const std::string& size);
 
 /// True values `deviates` standard deviations off those in force; the nominal ones stay.

@@ -13,7 +13,8 @@ namespace ambrig {
 /// Header of the table; the order of Row's values.
 const std::vector<std::string>& RowColumns();
 
-/// The text without what ends a cell of the table: commas, quotes, tabs, ends of lines become blanks.
+/// The text without what ends a cell of the table: commas, quotes, tabs, ends of lines become
+/// blanks.
 std::string OneCell(std::string text);
 
 /// Kept as its line, which takes a tenth of the memory of its cells: a campaign may have 10^5 rows.
@@ -30,8 +31,8 @@ Row RowOfCells(std::size_t run, const std::vector<std::string>& cells);
 
 /// @throws InputError when the text has no run number.
 Row ParseRow(std::string_view csv, const std::string& where);
-/// What the readers of a campaign's table count on: all cells, numbers where numbers stand, none missing that every run
-/// has. @throws InputError
+/// What the readers of a campaign's table count on: all cells, numbers where numbers stand, none
+/// missing that every run has. @throws InputError
 void CheckRow(const Row& row, const std::string& where);
 /// The check of the rows of one kind of table; `where` begins its complaint.
 using RowCheck = std::function<void(const Row& row, const std::string& where)>;

@@ -44,8 +44,8 @@ class RunPlan {
   const Campaign& campaign() const { return campaign_; }
   /// Thread-safe. @throws std::logic_error for run >= campaign().runs().
   PlannedRun Make(std::size_t run) const;
-  /// Largest multiple of load and weight that the map of the coils left at t pulls, at the centre, at rest
-  /// (failure_map.h); none: coils that no map is made for.
+  /// Largest multiple of load and weight that the map of the coils left at t pulls, at the centre,
+  /// at rest (failure_map.h); none: coils that no map is made for.
   std::optional<double> MarginAt(const PlannedRun& p, double t) const;
 
  private:

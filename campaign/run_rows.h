@@ -25,9 +25,10 @@ std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard,
 void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
                 const std::function<void(std::size_t run)>& work);
 
-/// Simulates `runs` on `jobs` threads (0: all cores), begun in their order, those of a plant by one thread where there are
-/// plants enough: a second thread would wait for its commissioning. `finished` is called from any thread, whenever a run is
-/// done. The first exception ends all. @throws Interrupted
+/// Simulates `runs` on `jobs` threads (0: all cores), begun in their order, those of a plant by one
+/// thread where there are plants enough: a second thread would wait for its commissioning.
+/// `finished` is called from any thread, whenever a run is done. The first exception ends all.
+/// @throws Interrupted
 void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs,
              const std::atomic<bool>* stop, const std::function<void(const Row&)>& finished);
 

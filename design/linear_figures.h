@@ -18,13 +18,13 @@ struct LinearFigures {
   bool stable() const { return spectral_radius < 1; }
 };
 
-/// S = (I - K P)^-1 per axis, all other loops closed: from an excitation of the force command to the
-/// command with it, as the analysis and a measurement have it (analysis/sensitivity.h), over 0.5 Hz to max(2 kHz, three times the
-/// speed), below the Nyquist frequency, as ISO 14839-3 wants it, the frequencies of the loop's
-/// lightly damped poles among them. `plant`: true values; `K`: readings to forces; `noise` [m] per
-/// axis. The largest is taken over `axes`. `top` [rad/s]: poles up to it count for the
-/// amplification, as an unbalance excites them in a run-up (API 617's amplification factor is 1/(2
-/// zeta) of a single mode).
+/// S = (I - K P)^-1 per axis, all other loops closed: from an excitation of the force command to
+/// the command with it, as the analysis and a measurement have it (analysis/sensitivity.h), over
+/// 0.5 Hz to max(2 kHz, three times the speed), below the Nyquist frequency, as ISO 14839-3 wants
+/// it, the frequencies of the loop's lightly damped poles among them. `plant`: true values; `K`:
+/// readings to forces; `noise` [m] per axis. The largest is taken over `axes`. `top` [rad/s]: poles
+/// up to it count for the amplification, as an unbalance excites them in a run-up (API 617's
+/// amplification factor is 1/(2 zeta) of a single mode).
 LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K,
                               const std::vector<double>& noise, double Omega,
                               const std::vector<std::size_t>& axes, double top = 0);

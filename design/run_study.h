@@ -3,7 +3,8 @@
 /// in this folder.
 ///
 ///   sweep     the rig file's own numbers, then the grid of `values`, or Sobol points in the ranges
-///   optimise  per candidate and direction of the objectives a Subplex search (design/nlopt_search.h) of
+///   optimise  per candidate and direction of the objectives a Subplex search
+///   (design/nlopt_search.h) of
 ///             max_j w_j F_j/F_j0 + 0.05 sum_j w_j F_j/F_j0 + 10 (what limits are exceeded by)
 ///               F_j0: of the start
 ///
@@ -39,7 +40,8 @@ struct StudyOptions {
   std::function<void(std::size_t, std::size_t)> progress;
 };
 
-/// @throws InputError when the folder holds another study, Interrupted when stopped (what is done stays).
+/// @throws InputError when the folder holds another study, Interrupted when stopped (what is done
+/// stays).
 StudyResult RunStudy(const Study& study, const StudyOptions& options);
 
 }  // namespace ambrig

@@ -1,6 +1,6 @@
-/// Error of the output voltage, constant and in proportion to the current, and a duty below which nothing comes out
-/// (minimum pulse). A current loop's integral takes up a constant error at once; what it follows is the part that
-/// changes with the current, which a resistance in series is.
+/// Error of the output voltage, constant and in proportion to the current, and a duty below which
+/// nothing comes out (minimum pulse). A current loop's integral takes up a constant error at once;
+/// what it follows is the part that changes with the current, which a resistance in series is.
 #include <algorithm>
 
 #include "effects/coil_targets.h"

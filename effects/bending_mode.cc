@@ -6,8 +6,8 @@
 /// It/m),
 ///   gain(z) = Σ_k c_k phi_k(z/L),   the c that meets both gains with least Σ (c_k b_k⁴)²,
 /// b_k = 4.7300, 7.8532, 10.9956, 14.1372: the lowest mode alone where it fits, and no wild shape
-/// where a bearing sits on a node. Straight beyond the ends. A shaft that is no uniform rod bends as
-/// one of `length` times L: sensors beside the magnets tell. `gyro` couples the planes: ± gyro
+/// where a bearing sits on a node. Straight beyond the ends. A shaft that is no uniform rod bends
+/// as one of `length` times L: sensors beside the magnets tell. `gyro` couples the planes: ± gyro
 /// Omega eta' (a thin shaft: 0).
 #include <fmt/format.h>
 

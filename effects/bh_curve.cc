@@ -1,7 +1,8 @@
 /// The iron of a pole by a table of its magnetisation curve: MMF in series with each gap, any
 /// monotone shape. What `ambrig refine` writes where iron-reluctance or saturation was named.
 ///
-///   dM/dφ = R' path(|B|),   path(b) linear between path0 .. path12 at b = reach k/12, then constant
+///   dM/dφ = R' path(|B|),   path(b) linear between path0 .. path12 at b = reach k/12, then
+///   constant
 ///
 /// R' is the gap's reluctance per metre, so that a path of the same size everywhere is the effect
 /// iron-reluctance, and path = mu0 dH/dB times the iron's length. M is an odd function of the flux

@@ -1,6 +1,6 @@
 /// Copper that warms up: R = R20 (1 + 0.00393 dT), time_constant dT' = rise_per_watt P - dT,
-/// dT = 0 at the start of every record (docs/effects.md). P = (1 - shared) R i² + shared mean(R i²) over the
-/// coils of the bearing: the iron of a stator carries heat from coil to coil.
+/// dT = 0 at the start of every record (docs/effects.md). P = (1 - shared) R i² + shared mean(R i²)
+/// over the coils of the bearing: the iron of a stator carries heat from coil to coil.
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 

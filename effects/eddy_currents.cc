@@ -3,11 +3,12 @@
 ///
 ///   E(s) = R_gap T(s) φ(s),  so without static iron φ = φ_static / (1 + sqrt(j f/cutoff))
 ///
-/// T(s): effects/diffusion_fit.h, relaxations (effects/relaxation_law.h) that vanish at rest. With `path` 0 the half order holds at all frequencies: thick iron. A path gives the
-/// laminations their thickness d: below 1/(2 pi τ) they no longer hold the flux back; conductivity
-/// σ and path = l_fe/mu_r give τ = σ mu0 mu_r d²/4 and cutoff = g0²/(2 pi τ path²). The MMF that
-/// the same iron needs at rest is the effect iron-reluctance. Source: published_values.md 7; Zhu &
-/// Knospe 2011 for the half order. Limit: linear iron.
+/// T(s): effects/diffusion_fit.h, relaxations (effects/relaxation_law.h) that vanish at rest. With
+/// `path` 0 the half order holds at all frequencies: thick iron. A path gives the laminations their
+/// thickness d: below 1/(2 pi τ) they no longer hold the flux back; conductivity σ and
+/// path = l_fe/mu_r give τ = σ mu0 mu_r d²/4 and cutoff = g0²/(2 pi τ path²). The MMF that the same
+/// iron needs at rest is the effect iron-reluctance. Source: published_values.md 7; Zhu & Knospe
+/// 2011 for the half order. Limit: linear iron.
 #include <cmath>
 
 #include "effects/coil_targets.h"

@@ -1,10 +1,12 @@
-/// Eddy currents as a sum of relaxations: what `ambrig refine` writes where eddy-currents was named.
+/// Eddy currents as a sum of relaxations: what `ambrig refine` writes where eddy-currents was
+/// named.
 ///
 ///   M(s) = R_gap Σ r_k s/(s + p_k) φ(s) + R' path φ(s),   r_k >= 0,  p_k = 2 pi (16 Hz .. 500 kHz)
 ///
 /// ten corner frequencies half a decade apart, so that any lamination, plate or solid core is met
 /// within a few per cent; passive by construction, because every term is a resistance beside an
-/// inductance. At rest only `path` is left (the iron's own reluctance). Steps: effects/relaxation_law.h.
+/// inductance. At rest only `path` is left (the iron's own reluctance). Steps:
+/// effects/relaxation_law.h.
 #include <cmath>
 
 #include "core/math/constants.h"

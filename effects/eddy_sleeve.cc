@@ -7,10 +7,10 @@
 /// degrees, where diffusion into iron (effects/eddy_currents.cc) has 10 dB and -45 degrees. A
 /// smaller gap lowers the cutoff with R_gap. The drop of a step of h is E = R_gap Δφ/(ω_c h), exact
 /// for the linear flux of a step, and vanishes at rest. Source: docs/theory/published_values.md 7.
-/// It acts on solenoids, opposed magnets and thrust bearings, whose yokes and guides are in one piece.
-/// Radial stators are laminated: no conductor closes round their flux, and what thick sheets do below
-/// their corner frequency is eddy-currents.
-/// Limits: the conductor is thinner than its skin depth and encloses all flux but the leakage.
+/// It acts on solenoids, opposed magnets and thrust bearings, whose yokes and guides are in one
+/// piece. Radial stators are laminated: no conductor closes round their flux, and what thick sheets
+/// do below their corner frequency is eddy-currents. Limits: the conductor is thinner than its skin
+/// depth and encloses all flux but the leakage.
 #include <cmath>
 #include <memory>
 

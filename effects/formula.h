@@ -2,7 +2,8 @@
 /// The effect `formula`: a law that the user writes in the rig file.
 ///
 ///   target           quantity                       meaning
-///   plane            force = { x, y }               on the rotor at that plane, its opposite on the
+///   plane            force = { x, y }               on the rotor at that plane, its opposite on
+///   the
 ///                                                   stator [N]; for "z": force = "..." along z
 ///   plane            reading = { x, y }             what the sensors read instead of x, y [m]
 ///   axis             force = "..", reading = ".."   the same for one axis

@@ -1,7 +1,8 @@
 /// Flux that bulges out of the gap: pole area A (1 + coefficient g/g0), so
-/// R(g) = g / (mu0 A (1 + coefficient g/g0)). By virtual work the pull is (1/2) phi² dR/dg: at a given
-/// current the fringing flux adds to the inductance, hardly to the pull. Where the pole's edges
-/// carry the flux so that it pulls like the rest, the pull is phi²/(2 mu0 A); `face_pull` is that share.
+/// R(g) = g / (mu0 A (1 + coefficient g/g0)). By virtual work the pull is (1/2) phi² dR/dg: at a
+/// given current the fringing flux adds to the inductance, hardly to the pull. Where the pole's
+/// edges carry the flux so that it pulls like the rest, the pull is phi²/(2 mu0 A); `face_pull` is
+/// that share.
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 

@@ -11,8 +11,8 @@ inline constexpr int kPlayOperators = 8;  // of play-hysteresis
 /// Corner frequency of a relaxation of eddy-impedance, half a decade apart. [Hz]
 inline double RelaxationFrequency(int k) { return 5e5 * std::pow(10.0, 0.5 * (k - 9)); }
 
-/// Radius of operator k = 1 .. 8 of play-hysteresis over its width: narrow loops stand close together, because real ones
-/// are of many widths.
+/// Radius of operator k = 1 .. 8 of play-hysteresis over its width: narrow loops stand close
+/// together, because real ones are of many widths.
 inline double PlayRadius(int k) {
   return k * k / static_cast<double>(kPlayOperators * kPlayOperators);
 }

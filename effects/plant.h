@@ -29,8 +29,9 @@ class VoltageTerm {
   virtual double Voltage(const CoilCircumstance& c) const = 0;
 };
 
-/// Copper that warms up: R = R20 (1 + 0.00393 dT), tau dT' = rise P - dT. P is the coil's own loss, and of
-/// the share that the stator's iron carries from coil to coil the mean loss of the bearing's coils.
+/// Copper that warms up: R = R20 (1 + 0.00393 dT), tau dT' = rise P - dT. P is the coil's own loss,
+/// and of the share that the stator's iron carries from coil to coil the mean loss of the bearing's
+/// coils.
 struct CoilHeating {
   double rise_per_watt = 0;  // [K/W], 0: none
   double time_constant = 1;  // [s]

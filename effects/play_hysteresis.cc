@@ -5,8 +5,8 @@
 ///
 /// s_k = B - Play_rk(B) is the stop operator of radius r_k: a sum of stops with sizes of their own
 /// is a sum of plays of the flux density, written for the MMF (Prandtl-Ishlinskii). Return-point
-/// memory, closed minor loops, no dependence on rate; effects/hysteresis.cc has evenly spread radii of one size.
-/// A run starts on the virgin curve.
+/// memory, closed minor loops, no dependence on rate; effects/hysteresis.cc has evenly spread radii
+/// of one size. A run starts on the virgin curve.
 #include <cmath>
 
 #include "effects/coil_targets.h"

@@ -1,5 +1,5 @@
-/// Unbalanced magnetic pull of a motor (or a magnet coupling):  f = k (r - e)  along the displacement
-/// from the motor's own centre e, a negative stiffness; the stator feels the opposite.
+/// Unbalanced magnetic pull of a motor (or a magnet coupling):  f = k (r - e)  along the
+/// displacement from the motor's own centre e, a negative stiffness; the stator feels the opposite.
 /// k = pi R L B²/(2 mu0 g) (published_values.md 7).
 #include "effects/effect.h"
 #include "effects/plane_targets.h"

@@ -3,7 +3,8 @@
 ///
 ///   M = Σ_k tangent_k s_k,   s_k <- clamp(s_k + Δφ, ±radius_k)
 ///
-/// Return-point memory, closed minor loops, no dependence on rate. A run starts on the virgin curve.
+/// Return-point memory, closed minor loops, no dependence on rate. A run starts on the virgin
+/// curve.
 #include <array>
 #include <memory>
 

@@ -6,7 +6,8 @@
 
 namespace ambrig {
 
-/// The effect with the middle of what is usual, of the numbers that switch it on; the others at their nulls.
+/// The effect with the middle of what is usual, of the numbers that switch it on; the others at
+/// their nulls.
 EffectInstance AtUsualSize(const EffectDescription& d, const std::string& target);
 
 }  // namespace ambrig

@@ -31,8 +31,8 @@ const char* Causality(const FmuVariable& v) {
   return v.IsParameter() ? "parameter" : v.IsInput() ? "input" : "output";
 }
 
-/// Real quantities flow; what acts at a communication point only is discrete, and so is what is no Real.
-/// FMI 2.0 lets importers give derivatives of continuous inputs: the speed has one.
+/// Real quantities flow; what acts at a communication point only is discrete, and so is what is no
+/// Real. FMI 2.0 lets importers give derivatives of continuous inputs: the speed has one.
 const char* Variability(const FmuVariable& v, int fmi) {
   if (v.IsParameter()) return "fixed";
   if (v.type != Type::kReal) return "discrete";

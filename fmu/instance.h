@@ -1,10 +1,10 @@
 #pragma once
-/// One instance of a rig's FMU, the same for FMI 2.0 and 3.0 (fmu/library): values of its variables, and
-/// the run that they drive.
+/// One instance of a rig's FMU, the same for FMI 2.0 and 3.0 (fmu/library): values of its
+/// variables, and the run that they drive.
 ///
-/// A state is all values that were set and when: taking one costs nothing, going back to one runs the
-/// simulation again up to there and gives the same bits. Nothing else would hold for every controller,
-/// effect and detector that a rig can have.
+/// A state is all values that were set and when: taking one costs nothing, going back to one runs
+/// the simulation again up to there and gives the same bits. Nothing else would hold for every
+/// controller, effect and detector that a rig can have.
 #include <cstdint>
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,5 @@
-/// The state of an FMU as bytes (fmi2SerializeFMUstate): a header, then its numbers as the machine has
-/// them.
+/// The state of an FMU as bytes (fmi2SerializeFMUstate): a header, then its numbers as the machine
+/// has them.
 #include <cstring>
 
 #include "fmu/instance.h"

@@ -1,7 +1,7 @@
 #pragma once
-/// The variables of a rig as an FMU (Functional Mock-up Interface 2.0 and 3.0, co-simulation): what an
-/// importer may set and read, in the order of their value references. Made from the rig's tables, so
-/// that exporter and library need not tell each other.
+/// The variables of a rig as an FMU (Functional Mock-up Interface 2.0 and 3.0, co-simulation): what
+/// an importer may set and read, in the order of their value references. Made from the rig's
+/// tables, so that exporter and library need not tell each other.
 #include <string>
 #include <string_view>
 #include <vector>

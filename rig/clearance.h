@@ -6,8 +6,8 @@ namespace ambrig {
 
 /// To the poles, rotor centred [m].
 double GapOf(const BearingParameters& b);
-/// The gap of the bearing that has this axis ("A.x"), which no reading of it can exceed by much [m]; infinity where no
-/// bearing has it.
+/// The gap of the bearing that has this axis ("A.x"), which no reading of it can exceed by much
+/// [m]; infinity where no bearing has it.
 double GapOfAxis(const RigParameters& rig, const std::string& axis);
 /// Before something touches: the auxiliary bearing's clearance, else half of the gap [m].
 double ClearanceOf(const BearingParameters& b);

@@ -71,7 +71,8 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
   t->RejectUnknownKeys();
 }
 
-/// Above half the rate at which a port takes its commands a signal comes out as another, slower one.
+/// Above half the rate at which a port takes its commands a signal comes out as another, slower
+/// one.
 void CheckSampled(const TomlTable& t, const Excitation& e, const RigParameters& rig) {
   const bool coil = e.port == "current" || e.port == "duty";
   const double most = 0.5 * (coil ? rig.amplifier.switching_frequency : rig.controller.rate);

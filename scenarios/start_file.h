@@ -5,8 +5,8 @@
 
 namespace ambrig {
 
-/// @throws InputError with file:line; resting needs two radial auxiliary bearings and gravity across
-/// the shaft, a clamped shaft stays inside the gaps.
+/// @throws InputError with file:line; resting needs two radial auxiliary bearings and gravity
+/// across the shaft, a clamped shaft stays inside the gaps.
 void ReadStart(const TomlTable& root, const RigParameters& rig, Scenario& s);
 
 }  // namespace ambrig

@@ -13,9 +13,9 @@ class EventLog {
  public:
   /// Gives the event its number `seq`. The oldest are forgotten beyond some thousand.
   void Add(nlohmann::ordered_json event);
-  /// Lines (JSON, each ended by a newline) after `seq`, which becomes the last one's number. Waits for
-  /// one up to `wait`; then a line {"event":"beat"}. {"event":"resync"} where numbers were forgotten or
-  /// are not of this server. "" once closed.
+  /// Lines (JSON, each ended by a newline) after `seq`, which becomes the last one's number. Waits
+  /// for one up to `wait`; then a line {"event":"beat"}. {"event":"resync"} where numbers were
+  /// forgotten or are not of this server. "" once closed.
   std::string After(std::uint64_t* seq, std::chrono::milliseconds wait);
   std::uint64_t last() const;
   /// Ends all waits.

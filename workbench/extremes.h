@@ -1,6 +1,6 @@
 #pragma once
-/// A channel thinned for a plot: the least and greatest sample of every pixel column, so that no peak is
-/// lost and a noise band keeps its width.
+/// A channel thinned for a plot: the least and greatest sample of every pixel column, so that no
+/// peak is lost and a noise band keeps its width.
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,8 +23,8 @@ class ExtremesLevel {
   std::vector<Extreme> blocks_;
 };
 
-/// Of samples [first, last), in `columns` columns of as equal counts as can be; a column without samples
-/// has nan. `level` is that of the same samples. nan samples do not count.
+/// Of samples [first, last), in `columns` columns of as equal counts as can be; a column without
+/// samples has nan. `level` is that of the same samples. nan samples do not count.
 std::vector<Extreme> ThinnedExtremes(std::span<const float> samples, const ExtremesLevel& level,
                                      std::size_t first, std::size_t last, std::size_t columns);
 

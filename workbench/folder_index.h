@@ -1,5 +1,6 @@
 #pragma once
-/// What the folder holds: each file's kind, hash, and for a result whether it is still that of the files.
+/// What the folder holds: each file's kind, hash, and for a result whether it is still that of the
+/// files.
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -16,9 +17,9 @@ class FolderIndex {
   FolderIndex(const ServedFolder& folder, const Jobs& jobs) : folder_(folder), jobs_(jobs) {}
 
   /// { "files": [ { "name", "kind", "size", "changed" } ], "cases": [ { "name", "records",
-  /// "rig", "compare": {...}, "explain": {...}, "watch": {...} } ], "scenarios": [ { "name", "run" } ],
-  /// "campaigns": [ { "name", "campaign" } ] }; kind: case, rig, scenario, campaign, study, record, result,
-  /// report, other.
+  /// "rig", "compare": {...}, "explain": {...}, "watch": {...} } ], "scenarios": [ { "name", "run"
+  /// } ], "campaigns": [ { "name", "campaign" } ] }; kind: case, rig, scenario, campaign, study,
+  /// record, result, report, other.
   nlohmann::ordered_json Folder();
   /// A file with its hash; "" when it cannot be read.
   std::string HashOf(const std::string& name);

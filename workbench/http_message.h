@@ -30,7 +30,8 @@ struct HttpResponse {
   std::string type = "application/json";
   std::string body;
   std::map<std::string, std::string> headers;
-  /// Instead of a body: asked for the next bytes until it returns none; may wait up to some seconds.
+  /// Instead of a body: asked for the next bytes until it returns none; may wait up to some
+  /// seconds.
   std::function<std::string()> stream;
 };
 

@@ -30,7 +30,8 @@ struct JobCommand {
   const char* command;  // of ambrig
   bool heavy;           // takes all cores for long
   std::vector<JobArgument> arguments;
-  // JOB stands for the job's folder, WORK for one that equal orders share: what an interrupted one left
+  // JOB stands for the job's folder, WORK for one that equal orders share: what an interrupted one
+  // left
   std::vector<const char*> added;
   bool events = true;  // the command has --events
   bool json = true;    // and --json

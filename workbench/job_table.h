@@ -1,6 +1,6 @@
 #pragma once
-/// Which commands the page may start and what their arguments may be: nothing else reaches a command
-/// line, and no shell is between.
+/// Which commands the page may start and what their arguments may be: nothing else reaches a
+/// command line, and no shell is between.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,8 +24,8 @@ struct JobOrder {
 
 /// Of {"command": "adopt", "case": "practice/case.toml", "effect": "cross-coupling", ...}.
 /// `job_folder`: where the job's own outputs go, relative to the served folder.
-/// @throws InputError for a command or argument that is not in the table, a file that is not there or
-/// that names files outside the folder, a new file that exists
+/// @throws InputError for a command or argument that is not in the table, a file that is not there
+/// or that names files outside the folder, a new file that exists
 JobOrder CheckJob(const nlohmann::json& request, const ServedFolder& folder,
                   const std::string& job_folder);
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Commands as child processes of this binary: a queue, their progress, their end. What a job did stands
-/// in .ambrig/jobs/N of the served folder (job.json, events.jsonl, log.txt, result.json, report.html), so
-/// that a killed server or a closed page loses nothing.
+/// Commands as child processes of this binary: a queue, their progress, their end. What a job did
+/// stands in .ambrig/jobs/N of the served folder (job.json, events.jsonl, log.txt, result.json,
+/// report.html), so that a killed server or a closed page loses nothing.
 #include <condition_variable>
 #include <map>
 #include <mutex>

@@ -49,8 +49,8 @@ bool IsWhole(const Json& request, std::size_t rows) {
   return true;
 }
 
-/// Of each channel the extremes of its columns as lo, hi pairs, or, where the view has fewer samples
-/// than two a column, the samples.
+/// Of each channel the extremes of its columns as lo, hi pairs, or, where the view has fewer
+/// samples than two a column, the samples.
 std::string View(KeptRecord& r, const Json& request) {
   const std::size_t columns =
       std::clamp<std::size_t>(request.value("px", std::size_t{600}), 1, kMostColumns);

@@ -1,9 +1,10 @@
 #pragma once
-/// The process that opens data files for the page. The HDF5 library is not thread-safe and may die of a
-/// broken file; so it lives in a process of its own with limited memory, which is started again.
+/// The process that opens data files for the page. The HDF5 library is not thread-safe and may die
+/// of a broken file; so it lives in a process of its own with limited memory, which is started
+/// again.
 ///
-/// One request a line (JSON) on the socket, one answer: eight bytes of length (little-endian), then the
-/// bytes: "J" and JSON, or "B", four bytes of head length, a JSON head and float32 values.
+/// One request a line (JSON) on the socket, one answer: eight bytes of length (little-endian), then
+/// the bytes: "J" and JSON, or "B", four bytes of head length, a JSON head and float32 values.
 #include <mutex>
 #include <string>
 
@@ -23,8 +24,9 @@ class RecordReader {
   RecordReader& operator=(const RecordReader&) = delete;
 
   /// {"file": absolute, "group": "record-1" or ""}: {"rate", "start", "rows", "channels": [{"name",
-  /// "unit"}]}, without a group of a file of groups {"groups": [...]}; with "channels", "t0", "t1", "px"
-  /// the binary answer. @throws InputError when the file cannot be read or the reader died of it
+  /// "unit"}]}, without a group of a file of groups {"groups": [...]}; with "channels", "t0", "t1",
+  /// "px" the binary answer. @throws InputError when the file cannot be read or the reader died of
+  /// it
   std::string Ask(const nlohmann::ordered_json& request);
 
  private:

@@ -29,11 +29,13 @@ struct KeptRecord {
   KeptChannel* Find(std::string_view name);
 };
 
-/// The records that were looked at last: at most so many bytes of samples, or one record however large.
+/// The records that were looked at last: at most so many bytes of samples, or one record however
+/// large.
 class RecordShelf {
  public:
   explicit RecordShelf(std::size_t most_bytes = 200 << 20) : most_bytes_(most_bytes) {}
-  /// @throws InputError when the file cannot be read; std::bad_alloc when it needs more memory than there is
+  /// @throws InputError when the file cannot be read; std::bad_alloc when it needs more memory than
+  /// there is
   KeptRecord& Get(const std::string& file, const std::string& group);
   std::size_t count() const { return kept_.size(); }
 

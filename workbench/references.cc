@@ -28,8 +28,8 @@ bool IsOneOf(std::span<const char* const> keys, const std::string& key) {
   return std::any_of(keys.begin(), keys.end(), [&](const char* k) { return key == k; });
 }
 
-/// The file that is named so in `file`, relative to the folder; "" for a text that is no file: "rig" is
-/// also a target's name, "none" a commissioning.
+/// The file that is named so in `file`, relative to the folder; "" for a text that is no file:
+/// "rig" is also a target's name, "none" a commissioning.
 std::string Resolved(const ServedFolder& folder, const TomlTable& t, const std::string& key,
                      const std::string& name, const std::string& file) {
   if (fs::path(name).extension().empty() && !name.starts_with('/') &&

@@ -1,6 +1,7 @@
 #pragma once
-/// Who may ask: the page that this server sent, opened by a browser that has the token. Other web pages of the
-/// same browser (another Origin, a rebound host name) and other users of the machine are refused.
+/// Who may ask: the page that this server sent, opened by a browser that has the token. Other web
+/// pages of the same browser (another Origin, a rebound host name) and other users of the machine
+/// are refused.
 #include <string>
 
 #include "workbench/http_message.h"

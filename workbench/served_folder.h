@@ -1,6 +1,6 @@
 #pragma once
-/// The one folder that is served: every name is relative, opened beneath it by the kernel (openat2),
-/// never through a link, and is a regular file of a known kind.
+/// The one folder that is served: every name is relative, opened beneath it by the kernel
+/// (openat2), never through a link, and is a regular file of a known kind.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -42,8 +42,8 @@ class ServedFolder {
   void Remove(const std::string& name) const;
   /// Moves a file of the folder to any place on the same disk. @throws InputError
   void MoveOut(const std::string& name, const std::string& file) const;
-  /// Size and time of the last change, as a text that another version does not have; "" when it is not
-  /// there.
+  /// Size and time of the last change, as a text that another version does not have; "" when it is
+  /// not there.
   std::string Version(const std::string& name) const;
 
   /// All files of known kinds, sorted, without hidden ones; at most `most`.

@@ -1,7 +1,7 @@
 #pragma once
-/// Looks at the folder every few seconds (files arrive by rename, also over a network, where the kernel
-/// tells nothing): tells the pages what changed, and starts `ambrig watch` for the folders that a
-/// logger writes to.
+/// Looks at the folder every few seconds (files arrive by rename, also over a network, where the
+/// kernel tells nothing): tells the pages what changed, and starts `ambrig watch` for the folders
+/// that a logger writes to.
 #include <condition_variable>
 #include <map>
 #include <mutex>

@@ -6,9 +6,10 @@
 ///   unknowns   f (one per controlled axis) [N], q (all coordinates) [m]
 ///   equations  reading_axis(q) = 0;  a_d(q, f) = 0 for every coordinate that a force can move
 ///
-/// Readings are the shaft's positions: offsets, gains and other maps of the sensors are not in them. At
-/// standstill: what turns with the shaft (unbalance) has no equilibrium. Where the axes do
-/// not hold every coordinate (one magnet on a bench) there is no unique one and `converged` is false.
+/// Readings are the shaft's positions: offsets, gains and other maps of the sensors are not in
+/// them. At standstill: what turns with the shaft (unbalance) has no equilibrium. Where the axes do
+/// not hold every coordinate (one magnet on a bench) there is no unique one and `converged` is
+/// false.
 #include <string>
 #include <vector>
 

@@ -67,8 +67,8 @@ struct BearingPart {
   std::vector<PlantCoil> currents;
 };
 
-/// Set-points of a bearing's coils per force of its axes (coils that carry x axes) [A/N]; zero where
-/// a set-point is at its limit.
+/// Set-points of a bearing's coils per force of its axes (coils that carry x axes) [A/N]; zero
+/// where a set-point is at its limit.
 MatrixXd SetPointsPerForce(const OperatingPoint& point, std::size_t k) {
   const CurrentMap& map = point.control()[k].map;
   const std::vector<int>& coils = point.bearings[k].coils;

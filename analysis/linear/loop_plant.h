@@ -1,8 +1,8 @@
 #pragma once
-/// What a position controller of a levitated rig has before it, exactly linearised from tick to tick
-/// of the position loop (t_k = k Ts): rotor, magnets, bridges, current loops and delays. The one
-/// linear loop of this project: analyses close it (analysis/closed_loop.h), syntheses design for it
-/// (control_plant.h).
+/// What a position controller of a levitated rig has before it, exactly linearised from tick to
+/// tick of the position loop (t_k = k Ts): rotor, magnets, bridges, current loops and delays. The
+/// one linear loop of this project: analyses close it (analysis/closed_loop.h), syntheses design
+/// for it (control_plant.h).
 ///
 ///   x = [plant | integrals of the current loops | their feedback | forces under way]
 ///   x_(k+1) = A x_k + B f_k + E d_k

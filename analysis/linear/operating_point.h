@@ -21,8 +21,8 @@ struct CoilPoint {
 class OperatingPoint {
  public:
   OperatingPoint() = default;
-  /// `nominal`: what the controller knows. `maps`: from forces to currents, one per bearing, in place of
-  /// those of healthy bearings; empty: those.
+  /// `nominal`: what the controller knows. `maps`: from forces to currents, one per bearing, in
+  /// place of those of healthy bearings; empty: those.
   OperatingPoint(const TrueRig& rig, const NominalRig& nominal,
                  const std::vector<CurrentMap>& maps = {});
 

@@ -43,8 +43,8 @@ SampleStep StepOf(const MatrixXd& A, double h) {
   return {h, flow.topLeftCorner(n, n), flow.topRightCorner(n, n)};
 }
 
-/// x(T) and the mean of `current` over the samples, with constant rates `rates` (n x columns) and an
-/// impulse `kick` at `kicks_at` [s] (negative: none).
+/// x(T) and the mean of `current` over the samples, with constant rates `rates` (n x columns) and
+/// an impulse `kick` at `kicks_at` [s] (negative: none).
 void OverPeriod(const LinearPlant& plant, const SampleStep& step, int samples,
                 const MatrixXd& rates, double kicks_at, const VectorXd& kick, MatrixXd& x,
                 MatrixXd& feedback) {

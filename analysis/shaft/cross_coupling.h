@@ -1,14 +1,14 @@
 #pragma once
-/// Stability of the first forward mode against a cross-coupled stiffness that a machine's flow adds (API 617
-/// annex, API 684 level 1): force (fx, fy) = q (-y, x) at one plane,
-/// which pushes forward whirl on, q from 0 up. Q_A is the expected
-/// value, Q_0 the one at which the log decrement becomes zero. Level 1 is passed with Q_0/Q_A of at least
-/// 2 and a log decrement of at least 0.1 at Q_A; between 2 and 10 the standard looks at the critical
-/// speed ratio and the gas density too, which are left to the reader. The modified Alford equation
-/// q = 3 P rho_d / (Omega D H rho_s) of a centrifugal stage: P power, D impeller diameter, H the
-/// narrowest width of its path. Clauses of API RP 684 (2nd ed.), as github.com/ross-rotordynamics/ross-report
-/// (report/analysis.py) quotes them beside the same formulas: SP6.8.5.6 Q_A, SP6.8.5.8 its range to 10 Q_A,
-/// SP6.8.5.9 the planes, SP6.8.5.10 the screening.
+/// Stability of the first forward mode against a cross-coupled stiffness that a machine's flow adds
+/// (API 617 annex, API 684 level 1): force (fx, fy) = q (-y, x) at one plane, which pushes forward
+/// whirl on, q from 0 up. Q_A is the expected value, Q_0 the one at which the log decrement becomes
+/// zero. Level 1 is passed with Q_0/Q_A of at least 2 and a log decrement of at least 0.1 at Q_A;
+/// between 2 and 10 the standard looks at the critical speed ratio and the gas density too, which
+/// are left to the reader. The modified Alford equation q = 3 P rho_d / (Omega D H rho_s) of a
+/// centrifugal stage: P power, D impeller diameter, H the narrowest width of its path. Clauses of
+/// API RP 684 (2nd ed.), as github.com/ross-rotordynamics/ross-report (report/analysis.py) quotes
+/// them beside the same formulas: SP6.8.5.6 Q_A, SP6.8.5.8 its range to 10 Q_A, SP6.8.5.9 the
+/// planes, SP6.8.5.10 the screening.
 #include <vector>
 
 #include "rotor/shaft/whole_beam_modes.h"
@@ -32,7 +32,8 @@ struct Level1 {
   bool passed() const { return found && ratio() >= 2 && at_expected >= 0.1; }
 };
 
-/// Cross-coupled stiffness of a stage by the modified Alford equation [N/m]; P [W], speed [rad/s], D and H [m].
+/// Cross-coupled stiffness of a stage by the modified Alford equation [N/m]; P [W], speed [rad/s],
+/// D and H [m].
 double AlfordCoupling(double power, double speed, double diameter, double width,
                       double density_ratio);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Response of a shaft at one speed to harmonic forces at planes, or to a harmonic motion of the ground, over
-/// the frequency w:
+/// Response of a shaft at one speed to harmonic forces at planes, or to a harmonic motion of the
+/// ground, over the frequency w:
 ///   (K - w² M + i w (D + Omega G)) q = f,  x(t) = Re(q e^{i w t})
 /// Supports as they are at the speed. Ground that moves by u pushes what its supports carry with
 /// (k + i w c - w² m) u.

@@ -1,10 +1,10 @@
 #pragma once
 /// Axial and torsional modes of a shaft:
-///   axial      rho A u'' = (E A u')',      disks and point masses, supports by kzz, housings by mass_z
-///   torsional  rho J phi'' = (G J phi')',  disks by their polar inertia; supports by krz
-/// with rods of three nodes and quadratic displacement, one per element of the beam, A and J along tapers
-/// integrated: frequencies converge with the fourth power of the element length. Supports as they
-/// are at one speed, without damping.
+///   axial      rho A u'' = (E A u')',      disks and point masses, supports by kzz, housings by
+///   mass_z torsional  rho J phi'' = (G J phi')',  disks by their polar inertia; supports by krz
+/// with rods of three nodes and quadratic displacement, one per element of the beam, A and J along
+/// tapers integrated: frequencies converge with the fourth power of the element length. Supports as
+/// they are at one speed, without damping.
 #include <vector>
 
 #include "rotor/shaft/beam.h"

@@ -21,8 +21,8 @@ std::vector<double> Spread(double from, double to, int count) {
   return out;
 }
 
-/// Rising, each once: between speeds that agree to 1e-6 (two whirls of one frequency) a response differs by less than
-/// its rounding, which would look like peaks.
+/// Rising, each once: between speeds that agree to 1e-6 (two whirls of one frequency) a response
+/// differs by less than its rounding, which would look like peaks.
 std::vector<double> Rising(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   const auto same = [](double a, double b) { return b - a <= 1e-6 * b; };
@@ -131,7 +131,8 @@ class WholeShaft {
     return probes.empty() ? NamedPlanes(out_.file, out_.beam) : probes;
   }
 
-  /// Over the frequencies of the speeds that are analysed, finer around the damped modes of this speed.
+  /// Over the frequencies of the speeds that are analysed, finer around the damped modes of this
+  /// speed.
   void Harmonic() {
     const ShaftOptions& o = out_.options;
     HarmonicLoad load{{}, o.ground_x, o.ground_y};

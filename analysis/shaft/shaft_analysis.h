@@ -1,6 +1,6 @@
 #pragma once
-/// Everything that `ambrig analyze` computes of a shaft on supports without magnetic bearings; the whole beam,
-/// whatever `modes` its file keeps for runs in time.
+/// Everything that `ambrig analyze` computes of a shaft on supports without magnetic bearings; the
+/// whole beam, whatever `modes` its file keeps for runs in time.
 #include <atomic>
 #include <optional>
 
@@ -66,12 +66,13 @@ struct ShaftAnalysis {
   std::vector<std::string> notes;
 };
 
-/// `tolerances` of the file. @throws InputError for planes and speeds that make no sense, Interrupted when stopped.
+/// `tolerances` of the file. @throws InputError for planes and speeds that make no sense,
+/// Interrupted when stopped.
 ShaftAnalysis AnalyseShaft(const std::string& name, const BeamFile& file,
                            const std::vector<Tolerance>& tolerances, const ShaftOptions& options);
 
-/// Supports of the shaft at stiffness k after k, everything else as it stands (housings, bearings and couplings between
-/// shafts); undamped.
+/// Supports of the shaft at stiffness k after k, everything else as it stands (housings, bearings
+/// and couplings between shafts); undamped.
 std::vector<CriticalMapRow> MapCriticalSpeeds(const BeamRotor& beam,
                                               const std::vector<double>& stiffnesses, int count);
 

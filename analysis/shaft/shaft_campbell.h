@@ -1,6 +1,6 @@
 #pragma once
-/// Damped modes of a shaft on its supports over the speed, the coefficients of the supports as they are at each
-/// speed; critical speeds where a damped frequency equals the speed, to 1e-9 of it.
+/// Damped modes of a shaft on its supports over the speed, the coefficients of the supports as they
+/// are at each speed; critical speeds where a damped frequency equals the speed, to 1e-9 of it.
 #include <optional>
 
 #include "analysis/campbell.h"
@@ -24,7 +24,8 @@ Eigen::MatrixXd ShapesOfBeam(const BeamRotor& beam, double speed, int modes);
 ShaftCampbell FollowShaft(const BeamRotor& beam, const Eigen::MatrixXd& shapes,
                           const std::vector<double>& speeds, int modes);
 
-/// Im s(Omega) = Omega for the mode that is near `start`, by secants to 1e-9; nothing where that mode is lost.
+/// Im s(Omega) = Omega for the mode that is near `start`, by secants to 1e-9; nothing where that
+/// mode is lost.
 std::optional<DampedCritical> SolveCritical(const BeamRotor& beam, const Eigen::MatrixXd& shapes,
                                             int modes, const DampedCritical& start);
 

@@ -37,8 +37,8 @@ struct ScatterStart {
   Eigen::MatrixXd shapes;
 };
 
-/// Two of one value in the file's rotor (a pair at rest, or of an isotropic shaft) come apart in any order: the lower one
-/// first.
+/// Two of one value in the file's rotor (a pair at rest, or of an isotropic shaft) come apart in
+/// any order: the lower one first.
 void OrderPairs(const std::vector<double>& nominal, std::vector<double>& value,
                 std::vector<double>& other) {
   for (std::size_t k = 0; k + 1 < nominal.size(); ++k)
@@ -53,8 +53,8 @@ bool SameCritical(const DampedCritical& a, const DampedCritical& b) {
          std::norm(a.mode.q.dot(b.mode.q)) > 0.9 * a.mode.q.squaredNorm() * b.mode.q.squaredNorm();
 }
 
-/// Two critical speeds of one pole may come apart, and both starts end at the one that stays: the critical speed of the
-/// nearest mode that is none of those found.
+/// Two critical speeds of one pole may come apart, and both starts end at the one that stays: the
+/// critical speed of the nearest mode that is none of those found.
 std::optional<DampedCritical> OtherCritical(const BeamRotor& beam, const ScatterStart& start,
                                             const ScatterPlan& plan, double speed,
                                             const std::vector<DampedCritical>& found) {

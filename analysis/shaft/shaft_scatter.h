@@ -1,9 +1,10 @@
 #pragma once
-/// Rotors whose numbers scatter: every number of a shaft's file that has an `sd` is sampled from its normal
-/// distribution (sampled again outside its physical range). Of every such rotor the modes at one speed, the damped
-/// critical speeds and the response to given unbalances are computed, and the quantiles taken over the rotors: of
-/// each mode and each critical speed of the rotor as it stands in the file, and of the orbit's long half axis at
-/// each probe and speed. The k-th rotor is the same whatever the number of threads and of rotors.
+/// Rotors whose numbers scatter: every number of a shaft's file that has an `sd` is sampled from
+/// its normal distribution (sampled again outside its physical range). Of every such rotor the
+/// modes at one speed, the damped critical speeds and the response to given unbalances are
+/// computed, and the quantiles taken over the rotors: of each mode and each critical speed of the
+/// rotor as it stands in the file, and of the orbit's long half axis at each probe and speed. The
+/// k-th rotor is the same whatever the number of threads and of rotors.
 #include <cstdint>
 #include <functional>
 #include <string>

@@ -46,7 +46,8 @@ Eigen::Vector2cd ForceOf(const BeamRotor& beam, const SpringSupport& s, const Ei
   return -(z * d);
 }
 
-/// Share of the weight [N] of every plane of the shaft that a support holds; housings stand between.
+/// Share of the weight [N] of every plane of the shaft that a support holds; housings stand
+/// between.
 std::vector<std::pair<double, double>> Loads(const BeamRotor& beam,
                                              const StaticDeflection& weight) {
   std::vector<std::pair<double, double>> out;

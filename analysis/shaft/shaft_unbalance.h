@@ -1,9 +1,9 @@
 #pragma once
 /// Response of a shaft on its supports to an unbalance, over the speed:
 ///   (K - Omega² M + i Omega (D + Omega G)) q = Omega² U e^{i phase} (1, -i) at its plane,
-/// the supports as they are at each speed; where and how much is free. Grades of ISO 21940-11: G is the
-/// product of the permissible eccentricity and the service speed, so U = m G / Omega for the whole
-/// rotor.
+/// the supports as they are at each speed; where and how much is free. Grades of ISO 21940-11: G is
+/// the product of the permissible eccentricity and the service speed, so U = m G / Omega for the
+/// whole rotor.
 #include <complex>
 
 #include "analysis/shaft/static_deflection.h"
@@ -36,7 +36,8 @@ struct ShaftSweep {
   std::vector<SupportForce> forces;
 };
 
-/// The sides of an ellipse x = Re(X e^{it}), y = Re(Y e^{it}), and the angle of its long axis from x.
+/// The sides of an ellipse x = Re(X e^{it}), y = Re(Y e^{it}), and the angle of its long axis from
+/// x.
 double NodalAngle(std::complex<double> x, std::complex<double> y);
 
 /// Displacement (x, y) of a probe over the dofs of Assemble; its transpose takes forces in.
@@ -49,8 +50,8 @@ std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<Unba
                                    const std::vector<ShaftProbe>& probes,
                                    const std::vector<double>& speeds);
 
-/// A grade of ISO 21940-11 [m/s] at a service speed [rad/s], shared by the planes that carry the shaft as they
-/// share its weight: `static` in phase, `couple` opposed from plane to plane.
+/// A grade of ISO 21940-11 [m/s] at a service speed [rad/s], shared by the planes that carry the
+/// shaft as they share its weight: `static` in phase, `couple` opposed from plane to plane.
 std::vector<UnbalanceCase> GradeUnbalance(const BeamRotor& beam, const StaticDeflection& weight,
                                           double grade, double speed);
 

@@ -1,9 +1,9 @@
 #pragma once
-/// A shaft that lies still on its supports under its own weight (along -y), that of its disks and point
-/// masses, and that of its housings: K u = f with the coefficients of the supports at one speed and the
-/// axial forces. Shear V is the sum of all upward forces to the left of a section, the bending moment
-/// M its integral from the left end (sagging is positive): from each element's own end forces, exact for
-/// loads that the elements take consistently.
+/// A shaft that lies still on its supports under its own weight (along -y), that of its disks and
+/// point masses, and that of its housings: K u = f with the coefficients of the supports at one
+/// speed and the axial forces. Shear V is the sum of all upward forces to the left of a section,
+/// the bending moment M its integral from the left end (sagging is positive): from each element's
+/// own end forces, exact for loads that the elements take consistently.
 #include <string>
 #include <vector>
 

@@ -28,7 +28,8 @@ struct ShaftRequest {
 /// @throws InputError naming the option.
 ShaftOptions ReadShaftOptions(const ShaftRequest& request, const ShaftCommand& command);
 
-/// Whether a file holds a shaft alone: JSON, ROSS's TOML, or a [rotor] without bearings and controller.
+/// Whether a file holds a shaft alone: JSON, ROSS's TOML, or a [rotor] without bearings and
+/// controller.
 bool IsShaftFile(const std::string& file);
 
 /// Exit code.

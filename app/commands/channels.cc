@@ -1,4 +1,5 @@
-/// ambrig channels: what the file of an instrument holds, as every command that reads records sees it.
+/// ambrig channels: what the file of an instrument holds, as every command that reads records sees
+/// it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +87,8 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
   return out;
 }
 
-/// The columns of a text file that has no times; nothing when it is no such file. One whose times cannot be used is none.
+/// The columns of a text file that has no times; nothing when it is no such file. One whose times
+/// cannot be used is none.
 std::optional<Record> StaticColumns(const std::string& file) {
   try {
     Record out;

@@ -1,5 +1,6 @@
 #pragma once
-/// What every command is to the program: a function that adds its options to the command line and sets the work.
+/// What every command is to the program: a function that adds its options to the command line and
+/// sets the work.
 #include <atomic>
 #include <functional>
 

@@ -62,7 +62,8 @@ std::string Meant(const std::string& word, const std::string& names) {
   return Nearest(word, names);
 }
 
-/// The first of the arguments that a command has no place for, as they were typed; "" where there is none.
+/// The first of the arguments that a command has no place for, as they were typed; "" where there
+/// is none.
 std::string ExtraComplaint(const CLI::App& app, const CLI::App& command) {
   const std::vector<std::string> extra = app.remaining(true);
   const auto option = std::find_if(extra.begin(), extra.end(), [](const std::string& word) {
@@ -79,7 +80,8 @@ std::string ExtraComplaint(const CLI::App& app, const CLI::App& command) {
                      near.empty() ? "" : fmt::format(", did you mean {}?", near));
 }
 
-/// "--seed = 1e3, allowed: an integer" of CLI11's "Could not convert: --seed = 1e3"; others as they are.
+/// "--seed = 1e3, allowed: an integer" of CLI11's "Could not convert: --seed = 1e3"; others as they
+/// are.
 std::string WithAllowed(const CLI::App& command, std::string what) {
   constexpr std::string_view kBegin = "Could not convert: ";
   if (!what.starts_with(kBegin)) return what;
@@ -89,8 +91,8 @@ std::string WithAllowed(const CLI::App& command, std::string what) {
   return what + (whole ? ", allowed: an integer, e.g. 1000" : ", allowed: a number");
 }
 
-/// What is wrong with a command line: a command that does not exist is named before all else, then what stands there
-/// beyond a command's arguments, then what is missing.
+/// What is wrong with a command line: a command that does not exist is named before all else, then
+/// what stands there beyond a command's arguments, then what is missing.
 std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>& arguments,
                             const CLI::ParseError& e) {
   const auto told = [&](const CLI::App& command, const std::string& help) {
@@ -111,7 +113,8 @@ std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>&
                      near.empty() ? "" : fmt::format(", did you mean {}?", near), names);
 }
 
-/// What stands in the buffer of standard output is a result too. A closed one (`>&-`) was not wanted.
+/// What stands in the buffer of standard output is a result too. A closed one (`>&-`) was not
+/// wanted.
 int Printed(int code) {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

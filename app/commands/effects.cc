@@ -35,7 +35,8 @@ const char* EffectTargetText(TargetKind kind) {
   return "";
 }
 
-/// "radial, thrust, opposed": the bearings that an effect of coils or magnets can act on; empty: not a matter of them.
+/// "radial, thrust, opposed": the bearings that an effect of coils or magnets can act on; empty:
+/// not a matter of them.
 std::string ActsOnText(const EffectDescription& d) {
   std::string names;
   bool all = true;

@@ -4,7 +4,8 @@
 ///   {"event":"progress","share":0.42,"text":"...","seconds":3.1}   at most five a second
 ///   {"event":"partial","result":{...}}                  the answer so far, at most one a second
 ///   {"event":"warning","text":"..."}
-///   {"event":"done","code":0}                           the last line; with "error" where there is one
+///   {"event":"done","code":0}                           the last line; with "error" where there is
+///   one
 /// A reader that goes away ends the work as Ctrl-C does.
 #include <atomic>
 #include <chrono>

@@ -120,7 +120,8 @@ void PrintFindings(const Explanation& e) {
   for (const std::string& w : e.warnings) PrintWrapped("  warning: " + w);
 }
 
-/// The commands that tell the names apart, where there are several, and that write the first into a rig file.
+/// The commands that tell the names apart, where there are several, and that write the first into a
+/// rig file.
 void PrintNextCommand(const Explanation& e, const std::string& file) {
   if (e.verdict != ExplanationVerdict::kEffect || e.adopted.empty()) return;
   std::string names;

@@ -38,8 +38,8 @@ std::vector<fs::path> OwnFolders() {
   return folders;
 }
 
-/// ambrig_fmu.so beside the program (or Python module) that this code is in, in ../lib/ambrig, or, for
-/// the module in lib/python3/dist-packages/ambrig, in lib/ambrig.
+/// ambrig_fmu.so beside the program (or Python module) that this code is in, in ../lib/ambrig, or,
+/// for the module in lib/python3/dist-packages/ambrig, in lib/ambrig.
 std::string LibraryFile() {
   std::error_code error;
   const std::vector<fs::path> folders = OwnFolders();

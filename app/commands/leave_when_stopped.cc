@@ -36,8 +36,8 @@ void LeaveWhenStopped::Watch() {
   for (int stopped = 0; stopped < kPatience; stopped += interrupted ? 1 : 0)
     if (ended_.wait_for(lock, kLook, [this] { return done_; })) return;
   TellInterrupted();
-  std::_Exit(
-      kInterruptedCode);  // no destructors: threads of the computation still use what they would end
+  // no destructors: threads of the computation still use what they would end
+  std::_Exit(kInterruptedCode);
 }
 
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 #pragma once
-/// Ctrl-C within a second also in the middle of one long computation that cannot look at `interrupted` itself: the
-/// eigenvalues of a large matrix, for one. Only around work that writes nothing, for the process then ends where it is.
+/// Ctrl-C within a second also in the middle of one long computation that cannot look at
+/// `interrupted` itself: the eigenvalues of a large matrix, for one. Only around work that writes
+/// nothing, for the process then ends where it is.
 #include <condition_variable>
 #include <mutex>
 #include <thread>

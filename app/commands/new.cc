@@ -140,7 +140,8 @@ int RunAmbrig(std::vector<std::string> arguments) {
 
 using Files = std::vector<std::pair<std::string, std::string>>;
 
-/// How files of `folder` name the record: from there where it lies near, so that both may move together.
+/// How files of `folder` name the record: from there where it lies near, so that both may move
+/// together.
 std::string RecordName(const std::string& record, const std::filesystem::path& folder) {
   const std::string from = NameFrom(folder.string(), record);
   return from.starts_with("../..") ? std::filesystem::absolute(record).lexically_normal().string()

@@ -19,7 +19,8 @@ namespace ambrig {
 
 namespace {
 
-// Mean force over weight of a body that hovers: what ten numbers of a bench miss, and what no bench misses.
+// Mean force over weight of a body that hovers: what ten numbers of a bench miss, and what no bench
+// misses.
 constexpr double kSurelyCarried = 1.25, kMostCarried = 3;
 constexpr std::size_t kRowsLooked = 2000;
 constexpr double kSlower = 0.9;        // of the rate of commands: rows miss some

@@ -62,15 +62,16 @@ PlaceOfBody PlaceOf(const Record& record, const ColumnChoice& c) {
   return {at(0.02), at(0.5), at(0.98)};
 }
 
-/// Whether a position column is x by its name: the channel's own, or one that begins with the letter alone.
+/// Whether a position column is x by its name: the channel's own, or one that begins with the
+/// letter alone.
 bool SaysX(const ColumnChoice& c) {
   return c.reason == "same name" ||
          ((c.column[0] == 'x' || c.column[0] == 'X') &&
           (c.column.size() == 1 || !std::isalpha(static_cast<unsigned char>(c.column[1]))));
 }
 
-/// What becomes of the position column of a bearing: "" when it stays as it is, else what was done. `held` becomes
-/// the place of a body that stands.
+/// What becomes of the position column of a bearing: "" when it stays as it is, else what was done.
+/// `held` becomes the place of a body that stands.
 std::string JudgePosition(const BearingParameters& b, const Record& record, ColumnChoice& c,
                           bool* leave_out, double* held) {
   const PlaceOfBody at = PlaceOf(record, c);
@@ -210,7 +211,8 @@ std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const Record& recor
                                    BodySaid said) {
   const bool moves = KnowsAll(all, rig, ChannelKind::kReading);
   std::vector<BenchRecord> out = {{coils, data, moves ? "motion" : "", all}};
-  // Without a duty or a set-point the currents themselves drive the coils: nothing of them is predicted.
+  // Without a duty or a set-point the currents themselves drive the coils: nothing of them is
+  // predicted.
   if (moves && DriveOf(all, rig) == CommandSource::kCurrent) out.clear();
   if (!moves || !KnowsAll(all, rig, ChannelKind::kCoilCurrent)) return out;
   if (!IsFree(rig, record, all, said)) return out;

@@ -42,7 +42,8 @@ std::string UnitOf(const Channel& c) {
   return KnownUnit(word) ? word : "";
 }
 
-/// What a person may call a channel of one bearing: words of its quantity, then its number or direction.
+/// What a person may call a channel of one bearing: words of its quantity, then its number or
+/// direction.
 struct Called {
   std::vector<std::string> quantity;
   std::string which;  // "x", "1"

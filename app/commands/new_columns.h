@@ -16,12 +16,12 @@ struct ColumnChoice {
   std::string reason;  // "same name", "name and unit", "said"
 };
 
-/// At most one column for each reading, current, set-point, duty, load cell and the bus. A column that fits
-/// two channels equally is left out.
+/// At most one column for each reading, current, set-point, duty, load cell and the bus. A column
+/// that fits two channels equally is left out.
 std::vector<ColumnChoice> ChooseColumns(const RigParameters& rig, const Record& record);
 
-/// "A.x=pos_ax", "A.x=pos_ax:um", "A.x=pos_ax:um:-1", "A.x=pos_ax:um:-1:0.01": what the user says (column,
-/// unit, gain, offset in SI), in place of a choice.
+/// "A.x=pos_ax", "A.x=pos_ax:um", "A.x=pos_ax:um:-1", "A.x=pos_ax:um:-1:0.01": what the user says
+/// (column, unit, gain, offset in SI), in place of a choice.
 /// @throws InputError
 void SayColumn(const std::string& text, const RigParameters& rig, const Record& record,
                std::vector<ColumnChoice>& choices);

@@ -5,7 +5,8 @@
 
 namespace ambrig {
 
-/// Prints what each template asks for, and writes it as JSON where that is asked for. Returns the exit code.
+/// Prints what each template asks for, and writes it as JSON where that is asked for. Returns the
+/// exit code.
 int ListQuestions(const CommonOptions& common);
 
 /// The files written and the columns taken.

@@ -1,4 +1,5 @@
-/// The rig file that `ambrig new` writes: the answers in the template's text, and the numbers that follow.
+/// The rig file that `ambrig new` writes: the answers in the template's text, and the numbers that
+/// follow.
 #include <fmt/args.h>
 #include <fmt/format.h>
 

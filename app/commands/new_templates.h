@@ -29,8 +29,8 @@ const BenchTemplate& BenchTemplateByName(const std::string& name);
 
 using BenchAnswers = std::map<std::string, double, std::less<>>;
 
-/// The rig file: gains of the position loop follow from the magnets' negative stiffness, by the rule that its
-/// comments state. @throws InputError when the numbers contradict each other
+/// The rig file: gains of the position loop follow from the magnets' negative stiffness, by the
+/// rule that its comments state. @throws InputError when the numbers contradict each other
 std::string RigTextOf(const BenchTemplate& bench, const BenchAnswers& answers);
 
 }  // namespace ambrig

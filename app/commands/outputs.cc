@@ -158,7 +158,8 @@ void RefuseOverwriting(const std::vector<std::string>& files, bool force) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) continue;
     if (MadeByAmbrig(file)) {
-      // Pages and JSON may hold such files as text: only what begins with a comment has a hash of its own.
+      // Pages and JSON may hold such files as text: only what begins with a comment has a hash of
+      // its own.
       if (ReadFile(file, 1) != "#" || !ChangedSinceWritten(ReadFile(file))) continue;
       throw InputError(fmt::format(
           "{} was changed since ambrig wrote it, allowed: another name, or --force to overwrite it",

@@ -8,7 +8,8 @@ namespace ambrig {
 /// Of an option that takes a number: from lo to hi, never nan.
 CLI::Validator NumberIn(double lo, double hi, const std::string& unit);
 
-/// A speed that names its unit ("3000rpm", "50 Hz", "314rad/s") as a number in `unit`; other texts as they are.
+/// A speed that names its unit ("3000rpm", "50 Hz", "314rad/s") as a number in `unit`; other texts
+/// as they are.
 /// @throws InputError for a unit that is none of a speed
 std::string SpeedIn(const std::string& text, const std::string& unit);
 /// The same for an option: a transform before its check.
@@ -23,15 +24,15 @@ void PrepareFolder(const std::string& folder);
 /// Whether a file carries the mark of what ambrig writes (JSON, HTML, HDF5, CSV, TOML).
 bool MadeByAmbrig(const std::string& file);
 
-/// Writes a text file (TOML) with "# made by ambrig COMMAND" first, unless it has that mark, and a hash of its lines
-/// at the end, which tells whether somebody changed it since.
+/// Writes a text file (TOML) with "# made by ambrig COMMAND" first, unless it has that mark, and a
+/// hash of its lines at the end, which tells whether somebody changed it since.
 void WriteMarkedText(const std::string& file, const std::string& command, const std::string& text);
 
 /// Whether the lines of a file with such a hash are others than those that were written.
 bool ChangedSinceWritten(const std::string& text);
 
-/// @throws InputError when one of the files exists and ambrig did not make it, or somebody changed it since, unless
-/// forced.
+/// @throws InputError when one of the files exists and ambrig did not make it, or somebody changed
+/// it since, unless forced.
 void RefuseOverwriting(const std::vector<std::string>& files, bool force);
 
 /// Folder of a long work that keeps a journal there: made if need be, tried, and refused when it
@@ -42,7 +43,8 @@ void PrepareStudyFolder(const std::string& folder, const std::vector<std::string
 /// @throws InputError when the output would replace one of the files that the command reads.
 void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs);
 
-/// @throws InputError when two of the outputs would be one file. Devices and empty names do not count.
+/// @throws InputError when two of the outputs would be one file. Devices and empty names do not
+/// count.
 void RefuseOneFileTwice(const std::vector<std::string>& outputs);
 
 /// Text of a JSON document with the mark: "made_by" first, then where it

@@ -1,5 +1,5 @@
-/// ambrig practice: explain on cases whose laws are not the catalogue's, and whether its probabilities
-/// are true.
+/// ambrig practice: explain on cases whose laws are not the catalogue's, and whether its
+/// probabilities are true.
 #include <fmt/format.h>
 
 #include <algorithm>

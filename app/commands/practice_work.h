@@ -22,15 +22,16 @@ struct PracticeSetting {
   Shard shard;
 };
 
-/// "practice seed 1 rigs 3f2a...": what a journal of this setting begins with; the number of cases may
-/// grow.
+/// "practice seed 1 rigs 3f2a...": what a journal of this setting begins with; the number of cases
+/// may grow.
 std::string PracticeHeader(const PracticeSetting& setting);
 
 /// NAME.txt, or NAME-2-of-4.txt of a shard; NAME is "journal" for cases, "plans" for plans.
 std::string PracticeJournalName(const std::string& name, const Shard& shard);
 
-/// Gives every entry of the folder's journals of this name to `entry`, which may throw nlohmann::json::exception for one of
-/// an earlier version: it does not count. @throws InputError for a journal that begins with another header
+/// Gives every entry of the folder's journals of this name to `entry`, which may throw
+/// nlohmann::json::exception for one of an earlier version: it does not count. @throws InputError
+/// for a journal that begins with another header
 void ReadPracticeJournals(const PracticeSetting& setting, const std::string& name,
                           const std::string& header,
                           const std::function<void(const nlohmann::ordered_json&)>& entry);
@@ -55,8 +56,8 @@ std::vector<std::string> FilesOfCases(const std::string& folder,
 /// Writes folder/NAME/{rig,case,record-*}.toml, record-*.h5 and folder/NAME.answer.toml.
 void WritePracticeCase(const PracticeCase& c, const std::string& folder);
 
-/// Makes the case, unless `make_only` explains it, and returns what was said. An error of explain is a
-/// result too (failure). @throws Interrupted, PracticeCaseNotMade
+/// Makes the case, unless `make_only` explains it, and returns what was said. An error of explain
+/// is a result too (failure). @throws Interrupted, PracticeCaseNotMade
 PracticeResult RunPracticeCase(const PracticeSetting& setting, std::size_t number, bool make_only,
                                const std::function<void(double, const std::string&)>& progress);
 

@@ -24,8 +24,8 @@ class Progress {
 
   /// fraction in [0, 1]; `text` says what is going on ("t = 1.2 s, 31x real time").
   void Update(double fraction, std::string_view text = {});
-  /// Every update of every bar from now on is told to `listener` too, from the thread that makes it; an
-  /// empty one ends that. For a program that shows its own (Python).
+  /// Every update of every bar from now on is told to `listener` too, from the thread that makes
+  /// it; an empty one ends that. For a program that shows its own (Python).
   static void Listen(std::function<void(double fraction)> listener);
   /// Clears the bar so that a line may be printed; the next Update draws it again.
   void Clear();

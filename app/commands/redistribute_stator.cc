@@ -18,7 +18,8 @@ namespace {
 constexpr int kDirectionsOfReach = 24;
 constexpr double kTrueForce = 0.05, kSmallForce = 1, kForceStep = 0.5;  // -, [N], [N]
 
-/// Forces from the load on that a map truly gives, by the network that made neither it nor its figures.
+/// Forces from the load on that a map truly gives, by the network that made neither it nor its
+/// figures.
 struct StatorReach {
   bool carries = false;
   double worst = 0;  // [N] from the load in the worst direction

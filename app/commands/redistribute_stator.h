@@ -1,5 +1,6 @@
 #pragma once
-/// ambrig redistribute for a stator of any kind (faulttolerance/redistribution/stator_distribution.h).
+/// ambrig redistribute for a stator of any kind
+/// (faulttolerance/redistribution/stator_distribution.h).
 #include <string>
 #include <vector>
 

@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Above this the reference is not explained, and what is missing from the model hides what changes.
+/// Above this the reference is not explained, and what is missing from the model hides what
+/// changes.
 constexpr double kUnexplained = 1.5;
 
 /// Of a record, not of a text that ambrig writes beside records.
@@ -39,7 +40,8 @@ bool IsRecordName(const fs::path& file) {
   });
 }
 
-/// Whether an entry of the journal has what is looked up in it; one of another version is examined again.
+/// Whether an entry of the journal has what is looked up in it; one of another version is examined
+/// again.
 bool IsWatchEntry(const Json& e) {
   const auto is_text = [](const Json& of, const char* key) {
     return of.is_object() && of.contains(key) && of[key].is_string();

@@ -26,8 +26,8 @@ class FolderWatch {
   /// Reads case and journal. @throws InputError
   explicit FolderWatch(WatchOptions options);
 
-  /// Examines the files that are new and finished, oldest first; each is in the journal before the next
-  /// begins. `told` is called after each. @return names of the records of this pass
+  /// Examines the files that are new and finished, oldest first; each is in the journal before the
+  /// next begins. `told` is called after each. @return names of the records of this pass
   /// @throws InputError for a case that cannot be used, Interrupted
   std::vector<std::string> Pass(const Progress& progress,
                                 const std::function<void(const nlohmann::ordered_json&)>& told);

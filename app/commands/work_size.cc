@@ -16,11 +16,13 @@ namespace {
 constexpr double kLongestWork = 24 * 3600;  // [s] of computing, without being told
 constexpr double kWorthAWord = 60;          // [s]
 
-// What the commissioning of a plant takes, in simulations as long as its run: nearly all of it is the fit.
+// What the commissioning of a plant takes, in simulations as long as its run: nearly all of it is
+// the fit.
 constexpr double kRunsOfACommissioning = 20;
 // Simulations of a record from the first fit to the verdict: 400 to 800 in cases of 6 or 7 records.
 constexpr double kSimulationsPerRecord = 800;
-// What such a simulation takes of a run with everything on: most have six samples a period, none noise or detection.
+// What such a simulation takes of a run with everything on: most have six samples a period, none
+// noise or detection.
 constexpr double kPartOfARun = 0.2;
 // Columns beside the data while fitting: derivatives by every toleranced parameter and candidate.
 constexpr double kColumnsOfAFit = 120;

@@ -54,8 +54,8 @@ std::vector<RecordSlice> RecordSlices(const CaseModel& model) {
   return out;
 }
 
-/// The largest length up to n, at least 16, whose prime factors are 2, 3 and 5: the transform of any
-/// other takes steps in proportion to its largest factor.
+/// The largest length up to n, at least 16, whose prime factors are 2, 3 and 5: the transform of
+/// any other takes steps in proportion to its largest factor.
 std::size_t FastLength(std::size_t n) {
   for (; n > 16; --n) {
     std::size_t rest = n;

@@ -1,6 +1,7 @@
 #pragma once
 /// Figures 4, 5 and 11 to 20 of the paper of the slope detector, redrawn from simulated records
-/// (simulation/paper_bench/paper_study.h). Figure 16 shows the load; here it is a table of the page.
+/// (simulation/paper_bench/paper_study.h). Figure 16 shows the load; here it is a table of the
+/// page.
 #include "app/figures/figure.h"
 #include "simulation/paper_bench/paper_study.h"
 

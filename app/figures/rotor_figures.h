@@ -10,12 +10,13 @@ Figure CampbellFigure(const std::vector<ModeTrack>& tracks,
                       const std::vector<DampedCritical>& criticals, double fastest,
                       const std::string& caption);
 Figure CampbellFigure(const RigAnalysis& a);
-/// Undamped critical speeds over the supports' stiffness; a vertical line per named stiffness [N/m].
+/// Undamped critical speeds over the supports' stiffness; a vertical line per named stiffness
+/// [N/m].
 Figure CriticalMapFigure(const std::vector<CriticalMapRow>& map,
                          const std::vector<std::pair<std::string, double>>& lines,
                          const std::string& caption);
-/// Shades the operating speeds [rad/s] in the first panel of a figure over rpm up to `fastest` [rad/s] and says so in the
-/// caption; one speed is a line.
+/// Shades the operating speeds [rad/s] in the first panel of a figure over rpm up to `fastest`
+/// [rad/s] and says so in the caption; one speed is a line.
 void MarkOperatingSpeeds(Figure& figure, double lowest, double highest, double fastest);
 Figure ModeShapeFigure(const RigAnalysis& a);    // at the highest operating speed
 Figure RotorModeFigure(const RigAnalysis& a);    // free and on springs

@@ -10,7 +10,8 @@ nlohmann::ordered_json AnalysisJson(const RigAnalysis& analysis);
 
 /// "forward", "backward" or "mixed".
 const char* SenseName(Whirl whirl);
-/// Of one of a row's modes: "either" for two of one pole at rest, which turn in any way that one likes.
+/// Of one of a row's modes: "either" for two of one pole at rest, which turn in any way that one
+/// likes.
 const char* SenseName(const ClosedLoopModes& row, const ClosedLoopMode& mode);
 
 }  // namespace ambrig

@@ -1,5 +1,6 @@
 #pragma once
-/// JSON of the identification: `ambrig compare` and `ambrig explain`; schemas/compare-1.json, explain-1.json.
+/// JSON of the identification: `ambrig compare` and `ambrig explain`; schemas/compare-1.json,
+/// explain-1.json.
 #include <nlohmann/json.hpp>
 
 #include "discovery/decision/compare.h"

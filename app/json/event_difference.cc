@@ -24,8 +24,8 @@ Times TimesOf(const nlohmann::json& events) {
   return out;
 }
 
-/// Which of `longer` belongs to each of `shorter` (times in order): the choice that moves them least
-/// in all, so that one event more does not make all later ones look moved.
+/// Which of `longer` belongs to each of `shorter` (times in order): the choice that moves them
+/// least in all, so that one event more does not make all later ones look moved.
 std::vector<std::size_t> PartnersOf(const std::vector<double>& shorter,
                                     const std::vector<double>& longer) {
   constexpr std::size_t kMostCells = 4'000'000;

@@ -13,9 +13,9 @@ struct EventDifference {
   double before = 0, after = 0;  // [s]; of a moved one both
 };
 
-/// Events of a kind, target and class belong together in their order; where one run has more of them,
-/// those are the new (or gone) ones without which the others moved least. One has moved when its
-/// times differ by more than `tolerance` [s]. Earliest first.
+/// Events of a kind, target and class belong together in their order; where one run has more of
+/// them, those are the new (or gone) ones without which the others moved least. One has moved when
+/// its times differ by more than `tolerance` [s]. Earliest first.
 std::vector<EventDifference> CompareEvents(const nlohmann::json& a, const nlohmann::json& b,
                                            double tolerance);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Where a JSON answer comes from: the build, the command line, and every input file with its hash, so
-/// that a reader can tell whether the answer is still that of the files.
+/// Where a JSON answer comes from: the build, the command line, and every input file with its hash,
+/// so that a reader can tell whether the answer is still that of the files.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

@@ -7,8 +7,8 @@
 
 namespace ambrig {
 
-/// "ratio", "ratio_fitted", "explained", "noise", "floors", "parameters", "data_faults" where it is wrong.
-/// `reference`: each parameter also gets its band and its change; nullptr: without.
+/// "ratio", "ratio_fitted", "explained", "noise", "floors", "parameters", "data_faults" where it is
+/// wrong. `reference`: each parameter also gets its band and its change; nullptr: without.
 nlohmann::ordered_json StateJson(const RecordState& state, const RecordState* reference);
 /// What a later record is compared with. @throws nlohmann::json::exception
 RecordState ReferenceFromJson(const nlohmann::ordered_json& json);

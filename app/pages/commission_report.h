@@ -8,7 +8,8 @@
 namespace ambrig {
 
 /// What the bands of one coil let through, by the learnt bands: a share s of the turns bypassed
-/// makes c = 0.9 (1/(1 - s)^2 - 1), the mutual part taken as a tenth; of a thrust winding three quarters of that.
+/// makes c = 0.9 (1/(1 - s)^2 - 1), the mutual part taken as a tenth; of a thrust winding three
+/// quarters of that.
 struct Detectable {
   double smallest_short = 0, smallest_delay = 0;  // share of the turns [-], [s]
   double tenth_delay = -1;                        // of a tenth of the turns [s], -1: not found

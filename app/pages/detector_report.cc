@@ -130,8 +130,8 @@ double FoundAt(const DetectorCurves& d, int level) {
   return sum / static_cast<double>(d.faults.size());
 }
 
-/// Of the detectors whose source gives a threshold the one that alarms on the fewest healthy plants there, of
-/// several the one that finds most faults; null: no source gives one.
+/// Of the detectors whose source gives a threshold the one that alarms on the fewest healthy plants
+/// there, of several the one that finds most faults; null: no source gives one.
 const DetectorCurves* FewestPlants(const std::vector<DetectorCurves>& curves) {
   const auto rank = [](const DetectorCurves& d) {
     const int own = LevelAtLeast(d.documented);

@@ -43,7 +43,8 @@ std::string StepName(const LadderStep& s) {
   return s.added.starts_with("without") ? s.added : "+ " + s.added;
 }
 
-/// Whether records were kept back from the fits; without, the second ratio is that of all, which were fitted.
+/// Whether records were kept back from the fits; without, the second ratio is that of all, which
+/// were fitted.
 bool AnyKeptBack(const std::vector<LadderStep>& ladder) {
   return std::ranges::any_of(ladder,
                              [](const LadderStep& s) { return s.ratio_fit != s.ratio_validate; });

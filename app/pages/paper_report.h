@@ -1,5 +1,6 @@
 #pragma once
-/// The paper of the slope detector beside the simulation, as text, JSON and one page with its figures.
+/// The paper of the slope detector beside the simulation, as text, JSON and one page with its
+/// figures.
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The report of `ambrig refine`: the law with its band, where it is supported, and what it changed.
+/// The report of `ambrig refine`: the law with its band, where it is supported, and what it
+/// changed.
 #include <string>
 
 #include "discovery/refine/refine.h"

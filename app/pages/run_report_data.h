@@ -20,8 +20,9 @@ double ModelEnd(const RunResult& result);
 /// the record up to ModelEnd.
 std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunResult& result);
 
-/// For a run whose detector doubted its model: that it has not learnt the rig (ambrig commission), or
-/// for which share of the run it doubted what it has learnt. Empty: it did for less than one per cent of it.
+/// For a run whose detector doubted its model: that it has not learnt the rig (ambrig commission),
+/// or for which share of the run it doubted what it has learnt. Empty: it did for less than one per
+/// cent of it.
 std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result);
 
 /// Whether the rig has an auxiliary bearing, to which a clearance can be left.

@@ -12,7 +12,8 @@ inline constexpr std::size_t kScreenColumns = 80;
 std::size_t ScreenWidth(std::string_view text);
 
 /// The text broken at spaces into lines of at most `columns`; lines after the first begin with
-/// `indent` spaces. A word longer than a line (a path) stays whole, and so does a line to paste behind "to mend it: ".
+/// `indent` spaces. A word longer than a line (a path) stays whole, and so does a line to paste
+/// behind "to mend it: ".
 std::string Wrapped(std::string_view text, std::size_t indent,
                     std::size_t columns = kScreenColumns);
 

@@ -3,8 +3,8 @@
 /// Every name that may be right, "unknown", "parameters" (or none) and "data" among them, has
 ///   z = a ln p + b_group + c_group . features,   probability = softmax of z
 /// p being what explain computed. Groups: names of effects, unknown, quiet (parameters or none),
-/// data. The right member's probability is maximised over the practice cases, under a weak prior around
-/// "as computed" (a convex problem; Newton).
+/// data. The right member's probability is maximised over the practice cases, under a weak prior
+/// around "as computed" (a convex problem; Newton).
 #include <array>
 #include <string>
 #include <vector>
@@ -31,7 +31,8 @@ struct StatedAnswer {
 
 StatedAnswer StatedAnswerOf(const Explanation& e);
 
-/// Weights of z: ln p; b of unknown, quiet, data; features of unknown; last but one feature of quiet.
+/// Weights of z: ln p; b of unknown, quiet, data; features of unknown; last but one feature of
+/// quiet.
 inline constexpr std::size_t kCalibrationTerms = 4 + kCalibrationFeatures + 1;
 using CalibrationWeights = std::array<double, kCalibrationTerms>;
 
@@ -62,11 +63,13 @@ CalibrationWeights FitCalibration(const std::vector<CalibrationCase>& cases);
 /// Weights, then the conformal threshold, of the same cases.
 CalibrationTable MakeCalibration(const std::vector<CalibrationCase>& cases);
 
-/// The members of the 95 % set, most probable first, at least one. `quiet_name`: none or parameters.
+/// The members of the 95 % set, most probable first, at least one. `quiet_name`: none or
+/// parameters.
 std::vector<SetMember> CalibratedSet(const CalibrationTable& table, const StatedAnswer& answer,
                                      const std::string& quiet_name);
 
-/// Replaces the probabilities of the ranking and the 95 % set. The verdict and what was adopted stay.
+/// Replaces the probabilities of the ranking and the 95 % set. The verdict and what was adopted
+/// stay.
 void Calibrate(const CalibrationTable& table, Explanation& e);
 
 }  // namespace ambrig

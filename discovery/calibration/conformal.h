@@ -12,9 +12,9 @@ namespace ambrig {
 /// p-value of a score among those of the practice cases.
 double ConformalPValue(const std::vector<double>& scores, double score);
 
-/// The least probability that a name must have to be in the set of `level`: 1 less the largest score whose
-/// p-value is above 1 - level; 0 where every name is in it (too few cases, or too many whose right
-/// answer had no probability).
+/// The least probability that a name must have to be in the set of `level`: 1 less the largest
+/// score whose p-value is above 1 - level; 0 where every name is in it (too few cases, or too many
+/// whose right answer had no probability).
 double LeastProbabilityOfSet(const std::vector<double>& scores, double level);
 
 }  // namespace ambrig

@@ -1,6 +1,6 @@
 #pragma once
-/// What a laboratory measures besides records over time: frequency responses and static tables. Both
-/// are compared point by point, each over its own standard deviation.
+/// What a laboratory measures besides records over time: frequency responses and static tables.
+/// Both are compared point by point, each over its own standard deviation.
 #include <complex>
 #include <string>
 #include <vector>
@@ -13,8 +13,9 @@ namespace ambrig {
 /// What kind of measurement a record of a case is; it decides who predicts it (record_predictor.h).
 enum class RecordKind { kTime, kFrf, kStatic };
 
-/// What a case says of a trace of a file of frequency responses: which response of the rig it is, and what its instrument
-/// did to it. A value v of the file at f [Hz] is gain · conj?(|v| e^{i phase_gain arg v}) · e^{2 pi i f late} in `unit`.
+/// What a case says of a trace of a file of frequency responses: which response of the rig it is,
+/// and what its instrument did to it. A value v of the file at f [Hz] is gain · conj?(|v| e^{i
+/// phase_gain arg v}) · e^{2 pi i f late} in `unit`.
 struct TraceMapping {
   std::string response, trace, unit, coherence, excited;
   double gain = 1;
@@ -59,7 +60,8 @@ struct StaticTable {
 /// Input of a table: the frequency of the meter in each row [Hz].
 inline constexpr const char* kFrequencyColumn = "frequency";
 
-/// What stands behind the '@' of an output's name [Hz]; 0 without one, NaN if it is no number above 0.
+/// What stands behind the '@' of an output's name [Hz]; 0 without one, NaN if it is no number above
+/// 0.
 double MeterFrequency(const std::string& output);
 
 }  // namespace ambrig

@@ -69,7 +69,8 @@ const char* UsedAs(const CaseRecord& r) {
   return r.test ? "a test" : r.validate ? "validated" : "fitted";
 }
 
-/// A record that is fitted says nothing when it validates, and one that was chosen by nothing when it tests.
+/// A record that is fitted says nothing when it validates, and one that was chosen by nothing when
+/// it tests.
 void RejectReused(const Case& c, const CaseRecord& r, const TomlTable& t) {
   std::error_code ignored;
   for (const CaseRecord& other : c.records)
@@ -223,8 +224,9 @@ std::tuple<RecordKind, StartState, Imposed, bool, bool> SortOf(const CaseRecord&
   return {r.kind, r.scenario.start, r.imposed, turns, forces};
 }
 
-/// Without any record marked "validate" every third one is kept back for that, but none that the fits cannot do
-/// without: of its sort another one must be left to them. Records of the test are no part of this.
+/// Without any record marked "validate" every third one is kept back for that, but none that the
+/// fits cannot do without: of its sort another one must be left to them. Records of the test are no
+/// part of this.
 void ReserveForValidation(Case& c) {
   const bool any =
       std::ranges::any_of(c.records, [](const CaseRecord& r) { return r.validate && !r.test; });

@@ -28,7 +28,8 @@ struct CaseRecord {
   RecordKind kind = RecordKind::kTime;
   std::string scenario_file, data_file;  // no scenario file: hover, or a held rotor
   Scenario scenario;
-  // rig channel names, SI; of a frequency response or a table every value over its sd, one row a point
+  // rig channel names, SI; of a frequency response or a table every value over its sd, one row a
+  // point
   Record data;
   ResponseTable responses;  // of kind kFrf, as measured
   StaticTable table;        // of kind kStatic, as measured
@@ -39,9 +40,11 @@ struct CaseRecord {
   std::vector<ChannelQuality> quality;  // one per channel of data
   std::map<std::string, ColumnSource> sources;
   double time_offset = 0;  // [s] scenario time of the logger's zero
-  // [s] of rows after the scenario's end that were cut off: more than a logger stopped late has, without an offset
+  // [s] of rows after the scenario's end that were cut off: more than a logger stopped late has,
+  // without an offset
   double behind = 0;
-  // [s] last row before and first one behind each block of rows that the logger lost and the case does not leave out
+  // [s] last row before and first one behind each block of rows that the logger lost and the case
+  // does not leave out
   std::vector<std::pair<double, double>> gaps = {};
 };
 

@@ -24,8 +24,8 @@ struct ChannelMapping {
 std::map<std::string, ChannelMapping> ReadMapping(const TomlTable& record,
                                                   const std::map<std::string, std::string>& known);
 
-/// Columns renamed to rig channels, units converted; unknown columns are left out with a note in `c`.
-/// `sources`: where each channel comes from. @throws InputError
+/// Columns renamed to rig channels, units converted; unknown columns are left out with a note in
+/// `c`. `sources`: where each channel comes from. @throws InputError
 Record MapChannels(const Record& raw, const std::map<std::string, ChannelMapping>& mapping,
                    const std::map<std::string, std::string>& known, const TomlTable& table, Case& c,
                    std::map<std::string, ColumnSource>& sources);

@@ -7,8 +7,8 @@
 
 namespace ambrig {
 
-/// @throws InputError "`refusal` the targets of this rig that the effect has", unless `wanted` is one
-/// of them or is empty (any).
+/// @throws InputError "`refusal` the targets of this rig that the effect has", unless `wanted` is
+/// one of them or is empty (any).
 void RequireTarget(const EffectDescription& d, const RigParameters& rig, const std::string& wanted,
                    const std::string& refusal);
 

@@ -1,11 +1,13 @@
 #pragma once
 /// Between which two points of the rig a frequency response was measured: "OUTPUT/INPUT".
 ///
-/// Outputs   A.x [m] reading, A.x.command [N] force asked for, what was injected included, A.x.error [m]
-///           reference less reading, A.x.shaft [m] true position at the magnets, NAME.x [m] shaft at a
-///           named plane, A.i1 [A] coil current, A.s1 [A] set-point
+/// Outputs   A.x [m] reading, A.x.command [N] force asked for, what was injected included,
+/// A.x.error [m]
+///           reference less reading, A.x.shaft [m] true position at the magnets, NAME.x [m] shaft
+///           at a named plane, A.i1 [A] coil current, A.s1 [A] set-point
 /// Ports     A.x.force [N] and A.x.reference [m] of the controller, A.x.sensor [m] added to the
-///           reading, A.x.load [N] on the rotor; of a held rotor A.coil1.current [A], A.coil1.duty [-]
+///           reading, A.x.load [N] on the rotor; of a held rotor A.coil1.current [A], A.coil1.duty
+///           [-]
 ///
 /// The input is a port, or an output: then the response is the quotient of two outputs under the
 /// excitation of a port (plant A.x/A.x.command, current loop A.i1/A.s1).

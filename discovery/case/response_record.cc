@@ -1,4 +1,5 @@
-// Records of kind "frf": which trace of a file is which response of the rig, and how well it is known.
+// Records of kind "frf": which trace of a file is which response of the rig, and how well it is
+// known.
 #include "discovery/case/response_record.h"
 
 #include <fmt/format.h>
@@ -81,7 +82,8 @@ ResponsePoint PointNamed(const RigParameters& rig, const std::string& name, cons
   return *point;
 }
 
-/// The port that was driven: the input, else what the case says, else that of the same axis or coil.
+/// The port that was driven: the input, else what the case says, else that of the same axis or
+/// coil.
 ResponsePoint ExcitedOf(const RigParameters& rig, const RigResponse& r, const std::string& stated,
                         bool held, const TomlTable& t) {
   std::string name = stated;

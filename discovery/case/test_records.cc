@@ -6,7 +6,8 @@ namespace ambrig {
 
 namespace {
 
-/// The case with those of its records that are of the test, or are not; nothing where none is of the test.
+/// The case with those of its records that are of the test, or are not; nothing where none is of
+/// the test.
 std::optional<Case> Part(const Case& c, bool of_test) {
   if (std::ranges::none_of(c.records, &CaseRecord::test)) return std::nullopt;
   Case part;

@@ -6,7 +6,8 @@ namespace ambrig {
 
 std::vector<std::size_t> LeastAssignment(const Eigen::MatrixXd& cost) {
   const auto n = static_cast<std::size_t>(cost.rows());
-  // Prices of rows u and of columns v with cost - u - v >= 0, 0 for what is assigned. Row and column 0 are outside.
+  // Prices of rows u and of columns v with cost - u - v >= 0, 0 for what is assigned. Row and
+  // column 0 are outside.
   std::vector<double> u(n + 1), v(n + 1);
   std::vector<std::size_t> row_of(n + 1, 0), from(n + 1);
   for (std::size_t row = 1; row <= n; ++row) {

@@ -17,8 +17,8 @@ std::vector<HeldStretch> HeldStretches(const std::vector<double>& y, std::size_t
 /// repeats: what its converter's steps make of it.
 std::size_t UsualHold(const std::vector<double>& y);
 
-/// The length of the stretches of equal neighbours where nine of ten have the same, as of a reading that a faster
-/// record repeats; 1 otherwise, and for fewer than ten stretches.
+/// The length of the stretches of equal neighbours where nine of ten have the same, as of a reading
+/// that a faster record repeats; 1 otherwise, and for fewer than ten stretches.
 std::size_t RegularHold(const std::vector<double>& y);
 
 /// The longest stretch that is far longer than this column's usual ones, at least 20 samples; count

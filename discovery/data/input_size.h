@@ -6,7 +6,8 @@
 
 namespace ambrig {
 
-/// The case with the excitations of every record's scenario 1 + `larger` times as large (one number for each record).
+/// The case with the excitations of every record's scenario 1 + `larger` times as large (one number
+/// for each record).
 Case WithInputs(const Case& c, const std::vector<double>& larger);
 
 }  // namespace ambrig

@@ -14,7 +14,8 @@ namespace ambrig {
 /// noise.
 double WhiteNoiseOf(const double* error, const char* ok, std::size_t count);
 
-/// Value below which the share `part` (0 to 1) of the finite values lies [their unit]; nan when there is none.
+/// Value below which the share `part` (0 to 1) of the finite values lies [their unit]; nan when
+/// there is none.
 double QuantileOf(std::vector<double> values, double part);
 /// Median of the values [their unit]; nan when there is none. Not finite ones do not count.
 double MedianOf(std::vector<double> values);

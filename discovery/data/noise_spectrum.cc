@@ -14,13 +14,15 @@ namespace ambrig {
 namespace {
 
 constexpr double kDensitiesAgree = 1.35;  // of densities as rms, beside their scatter
-// Squared coherence with the prediction from which an error is the model's; of 16 lines of noise 1 % have as much.
+// Squared coherence with the prediction from which an error is the model's; of 16 lines of noise 1
+// % have as much.
 constexpr double kCoherentError = 0.25;
 constexpr double kOfQuartile = 0.6745;   // normal number that a quarter exceeds
 constexpr double kFreedomOfLine = 1.05;  // of a line, with Hann's window
 constexpr std::size_t kFirstLine = 2;    // line: below it the window holds the mean
 
-/// What a quarter (z < 0) or three quarters of mean squares of this freedom stay below, of their expectation.
+/// What a quarter (z < 0) or three quarters of mean squares of this freedom stay below, of their
+/// expectation.
 double QuantileOfPower(double freedom, double z) {
   const double part = 2 / (9 * freedom);
   return std::pow(1 - part + z * std::sqrt(part), 3);

@@ -21,8 +21,8 @@ struct Match {
   double error = 0;                              // rms of measured minus predicted
 };
 Match MatchOf(const MatchedColumn& c);
-/// The same with the prediction `late` samples later from sample `first` on. Samples whose prediction lies outside the
-/// column do not count.
+/// The same with the prediction `late` samples later from sample `first` on. Samples whose
+/// prediction lies outside the column do not count.
 Match MatchLater(const MatchedColumn& c, long late, long first);
 
 /// rms of measured - factor * predicted_of_other: what is left if `c` showed that.

@@ -34,8 +34,8 @@ struct DataFault {
 std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
                                    const Hypothesis& h);
 
-/// The same with each floor not above `stated` (per target): a gross error is no noise, whatever its
-/// differences look like. The model's floors stay as they are.
+/// The same with each floor not above `stated` (per target): a gross error is no noise, whatever
+/// its differences look like. The model's floors stay as they are.
 std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<double>& predicted,
                                         const Hypothesis& h, const std::vector<double>& stated);
 

@@ -1,4 +1,5 @@
-// What a scenario commands and no model predicts: set-points of a held rotor, the angle of a prescribed speed.
+// What a scenario commands and no model predicts: set-points of a held rotor, the angle of a
+// prescribed speed.
 #include <algorithm>
 #include <cmath>
 
@@ -36,8 +37,8 @@ GateColumn CommandColumn(const RigParameters& rig, const CaseRecord& r, const Ch
   return out;
 }
 
-/// Set-points of a held rotor beside what its scenario makes of them, and behind them the record's currents, which bear them
-/// out but are judged elsewhere.
+/// Set-points of a held rotor beside what its scenario makes of them, and behind them the record's
+/// currents, which bear them out but are judged elsewhere.
 std::vector<GateColumn> CommandColumns(const CaseModel& model, const Hypothesis& h,
                                        std::size_t record, const std::vector<GateColumn>& columns) {
   const CaseRecord& r = model.data().records[record];

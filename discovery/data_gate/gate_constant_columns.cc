@@ -24,7 +24,8 @@ void TellUseless(const CaseRecord& r, const std::string& channel, const std::str
   out.push_back(f);
 }
 
-/// Without a voltage the bridges carry no current: the column was not connected, whatever the rig does.
+/// Without a voltage the bridges carry no current: the column was not connected, whatever the rig
+/// does.
 bool IsDeadBus(const CaseModel& model, const CaseRecord& r, std::size_t channel) {
   const Channel& c = r.data.channels[channel];
   return IsOfKind(c.name, ChannelKind::kBus) && model.data().rig.amplifier.bus_voltage > 0 &&

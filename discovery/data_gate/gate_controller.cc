@@ -53,7 +53,8 @@ bool IsWrong(const ControllerAxis& a) {
   return error > kGrossError * kCurrentFloor && error > kOfMovement * a.movement;
 }
 
-/// Whether the program of the rig file is the one that computed the set-points: an axis of the case that moves agrees.
+/// Whether the program of the rig file is the one that computed the set-points: an axis of the case
+/// that moves agrees.
 bool ProgramIsRight(const CaseModel& model) {
   return std::ranges::any_of(model.data().records, [&](const CaseRecord& r) {
     if (!OverTime(r) || !HasControllerBlock(model.data().rig, r.scenario, r.data)) return false;
@@ -178,7 +179,8 @@ long LagOfReading(const RigParameters& rig, const Scenario& scenario, const Brid
   return best;
 }
 
-/// Whether the error enters as a command does: a wrong reading would carry the noise of its sensor into it.
+/// Whether the error enters as a command does: a wrong reading would carry the noise of its sensor
+/// into it.
 bool IsCommand(const BridgedRecord& data, const ControllerAxis& a) {
   constexpr double kOfNoise = 0.1;
   const std::vector<double>& y = data.record.Find(a.axis)->samples;

@@ -16,12 +16,14 @@ constexpr double kOfInstrument = 0.75, kOfConverter = 0.3;
 
 struct LateGroup {
   std::function<bool(const ChannelId&)> holds;
-  // Share of the error that the shift may leave. All readings or all currents of a rig have one instrument often, and
-  // nothing in a rig delays them alone; iron delays forces a little, a sensor's filter the readings of its bearing.
+  // Share of the error that the shift may leave. All readings or all currents of a rig have one
+  // instrument often, and nothing in a rig delays them alone; iron delays forces a little, a
+  // sensor's filter the readings of its bearing.
   double most_left;
 };
 
-/// From the largest to the smallest, so that what a smaller one would tell of its columns is told of all.
+/// From the largest to the smallest, so that what a smaller one would tell of its columns is told
+/// of all.
 std::vector<LateGroup> LateGroupsOf(const std::vector<GateColumn>& columns) {
   constexpr ChannelKind kKinds[] = {ChannelKind::kReading, ChannelKind::kCoilCurrent,
                                     ChannelKind::kLoadCell, ChannelKind::kSetPoint,
@@ -52,7 +54,8 @@ double ErrorOfMovement(const std::vector<const GateColumn*>& columns) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, columns.size())));
 }
 
-/// The columns of the group are late and those beside it are on time, each of them by itself where it can tell.
+/// The columns of the group are late and those beside it are on time, each of them by itself where
+/// it can tell.
 bool IsLate(const std::vector<const GateColumn*>& own, const std::vector<const GateColumn*>& others,
             const FoundShift& s, double most_left, double rate) {
   constexpr double kLeast = 2e-3;  // [s]

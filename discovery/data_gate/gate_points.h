@@ -1,6 +1,7 @@
 #pragma once
-/// Errors of the data of records that are not over time: frequency responses and static tables. A mistake is made
-/// on the prediction, point by point, and believed where hardly anything is left of a gross error.
+/// Errors of the data of records that are not over time: frequency responses and static tables. A
+/// mistake is made on the prediction, point by point, and believed where hardly anything is left of
+/// a gross error.
 #include <complex>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct GateResponse {
   double noise = 0;            // rms of the relative error that noise alone makes
 };
 
-/// rms over the points of |m - p| over hypot(|m|, |p|): 0 to the root of two, whatever the sizes are.
+/// rms over the points of |m - p| over hypot(|m|, |p|): 0 to the root of two, whatever the sizes
+/// are.
 double RelativeError(const GateResponse& r, const std::vector<std::complex<double>>& expected);
 
 /// A mistake that leaves so much of the relative error of a response.
@@ -35,7 +37,8 @@ struct ResponseMistake {
 /// The mistake that explains the response best, `fault` empty where none does.
 ResponseMistake MistakeOf(const GateResponse& r, bool quotient);
 
-/// Signs, conjugates, units, phases, decibels and delays of the responses; the unit of their frequencies.
+/// Signs, conjugates, units, phases, decibels and delays of the responses; the unit of their
+/// frequencies.
 void CheckResponses(const CaseModel& model, const std::vector<double>& predicted,
                     const Hypothesis& h, std::size_t record, std::vector<DataFault>& out);
 

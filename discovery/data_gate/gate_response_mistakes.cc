@@ -20,7 +20,8 @@ constexpr double kLeftOfResponse = 0.15;  // of the relative error
 constexpr double kLeftOfFactor = 0.08;  // of a factor that is no prefix: an effect may come near it
 constexpr double kNoiseMayLeave = 1.5;  // times what noise alone makes, where that is more
 
-/// Whether so little is left that the mistake is believed; of a large error noise may leave up to twice the share.
+/// Whether so little is left that the mistake is believed; of a large error noise may leave up to
+/// twice the share.
 bool Believed(const GateResponse& r, double before, double left, double share) {
   return left < std::max(share * before, std::min(kNoiseMayLeave * r.noise, 2 * share * before));
 }
@@ -71,8 +72,8 @@ void TryFactors(const GateResponse& r, double before, ResponseMistake& best) {
     KeepBetter(best, {"unit", "", factor, 0, left});
 }
 
-/// Magnitudes in decibels of a power that were read as those of an amplitude, or the other way round. The unit in which
-/// they were taken may be any: then the mean size says nothing.
+/// Magnitudes in decibels of a power that were read as those of an amplitude, or the other way
+/// round. The unit in which they were taken may be any: then the mean size says nothing.
 void TryDecibels(const GateResponse& r, double before, ResponseMistake& best) {
   for (const double power : {0.5, 2.0}) {
     const double size = MeanSize(r, power);
@@ -86,7 +87,8 @@ void TryDecibels(const GateResponse& r, double before, ResponseMistake& best) {
   }
 }
 
-/// Phases of the expected response [rad] as instruments write them: within half a turn, from 0 on, without jumps.
+/// Phases of the expected response [rad] as instruments write them: within half a turn, from 0 on,
+/// without jumps.
 std::array<std::vector<double>, 3> WrittenPhases(const Values& expected) {
   std::array<std::vector<double>, 3> out;
   double turns = 0;
@@ -119,8 +121,8 @@ Values Delayed(const GateResponse& r, double seconds) {
   return out;
 }
 
-/// The delay that leaves the least [s]: a grid of a fifteenth of the shortest period, then a finer one. Of delays that
-/// points at equal distances do not tell apart, the smallest.
+/// The delay that leaves the least [s]: a grid of a fifteenth of the shortest period, then a finer
+/// one. Of delays that points at equal distances do not tell apart, the smallest.
 double BestDelay(const GateResponse& r) {
   constexpr double kMostDelay = 0.05;  // [s]
   constexpr long kMostSteps = 4000;
@@ -139,8 +141,8 @@ double BestDelay(const GateResponse& r) {
   return best;
 }
 
-/// A delay of the instrument changes phases alone. One in the loop moves the magnitudes where the loop is closed; of a
-/// quotient of two outputs it does not, and only what no rig delays is told.
+/// A delay of the instrument changes phases alone. One in the loop moves the magnitudes where the
+/// loop is closed; of a quotient of two outputs it does not, and only what no rig delays is told.
 void TryDelay(const GateResponse& r, bool quotient, double before, ResponseMistake& best) {
   constexpr double kLeast = 5e-4, kLeastOfQuotient = 4e-3;  // [s]
   constexpr double kMagnitudes = 0.05;

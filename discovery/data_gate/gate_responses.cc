@@ -97,7 +97,8 @@ CaseRecord WithFrequenciesOver(const CaseRecord& r, double factor, const RigPara
   return out;
 }
 
-/// The responses of `all` with what the model expects at other frequencies; empty where it cannot say.
+/// The responses of `all` with what the model expects at other frequencies; empty where it cannot
+/// say.
 std::vector<GateResponse> ExpectedOver(const CaseModel& model, const Hypothesis& h,
                                        std::size_t record, double factor) {
   const CaseRecord shifted =

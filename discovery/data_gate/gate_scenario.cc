@@ -15,7 +15,8 @@ namespace ambrig {
 
 namespace {
 
-/// Error of the moving columns of `data` against predictions by name at any rate, over their movement.
+/// Error of the moving columns of `data` against predictions by name at any rate, over their
+/// movement.
 double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Record& data,
                           const Record& other) {
   double sum = 0, n = 0;

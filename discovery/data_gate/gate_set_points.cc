@@ -24,8 +24,8 @@ std::vector<const Channel*> OtherSetPoints(const CaseRecord& r, const std::strin
   return out;
 }
 
-/// Whether another set-point of the bearing stands still for half of these rows too, or there is none: a force at its limit
-/// holds the set-points of an axis together, a logger one column.
+/// Whether another set-point of the bearing stands still for half of these rows too, or there is
+/// none: a force at its limit holds the set-points of an axis together, a logger one column.
 bool HeldTogether(const CaseRecord& r, const std::string& channel, const HeldStretch& s) {
   const std::vector<const Channel*> others = OtherSetPoints(r, channel);
   return others.empty() || std::ranges::any_of(others, [&](const Channel* c) {

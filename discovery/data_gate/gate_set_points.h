@@ -1,6 +1,6 @@
 #pragma once
-/// Set-points that a logger clipped or held. The controller itself holds them at its coils' limits and, those of one axis
-/// together, where its force is at a limit.
+/// Set-points that a logger clipped or held. The controller itself holds them at its coils' limits
+/// and, those of one axis together, where its force is at a limit.
 #include <vector>
 
 #include "discovery/data/held_values.h"
@@ -11,8 +11,9 @@ namespace ambrig {
 /// Floors by which a prediction passes a value to be beyond it.
 inline constexpr double kBeyondFloors = 5;
 
-/// Rows of a set-point at its own extreme, where that is none of its coil's limits and the other set-points of its bearing
-/// are not at theirs, as a force at its limit holds them. A controller's numbers repeat no other value a tenth as often.
+/// Rows of a set-point at its own extreme, where that is none of its coil's limits and the other
+/// set-points of its bearing are not at theirs, as a force at its limit holds them. A controller's
+/// numbers repeat no other value a tenth as often.
 std::size_t ClippedSetPointRows(const CaseModel& model, const CaseRecord& r, const GateColumn& c,
                                 const std::vector<double>& y, double extreme);
 

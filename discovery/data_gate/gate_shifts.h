@@ -26,15 +26,15 @@ DataFault TimeFault(const CaseRecord& r, const std::string& channel, const Found
 /// Whether the error of any column is gross, also beside its movement.
 bool AnyGross(const std::vector<const GateColumn*>& columns);
 
-/// Whether the prediction comes back to itself within the shifts that are tried: then a shift may be one of its periods,
-/// or the phase of a whirl.
+/// Whether the prediction comes back to itself within the shifts that are tried: then a shift may
+/// be one of its periods, or the phase of a whirl.
 bool RepeatsItself(const std::vector<const GateColumn*>& columns);
 
 /// Whether columns agree with the prediction as it is rather than `late` seconds later.
 bool AreOnTime(const std::vector<const GateColumn*>& columns, double late, double rate);
 
-/// Columns that share an instrument or a converter and are late together, while all others are on time: of a kind, of a
-/// bearing, of a kind at one bearing.
+/// Columns that share an instrument or a converter and are late together, while all others are on
+/// time: of a kind, of a bearing, of a kind at one bearing.
 void FindLateGroups(const CaseRecord& r, std::vector<GateColumn>& columns,
                     std::vector<DataFault>& out);
 

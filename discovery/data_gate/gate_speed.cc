@@ -1,4 +1,5 @@
-// The measured speed beside the profile of its scenario: its unit, its clock, and stretches that stand still.
+// The measured speed beside the profile of its scenario: its unit, its clock, and stretches that
+// stand still.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +18,13 @@ namespace ambrig {
 
 namespace {
 
-// A speed that is late by a clock has the profile's corners, one that lags behind by its drive has not: of a lag of at least
-// the first share of the largest speed a drive leaves a tenth of the error after the best shift.
+// A speed that is late by a clock has the profile's corners, one that lags behind by its drive has
+// not: of a lag of at least the first share of the largest speed a drive leaves a tenth of the
+// error after the best shift.
 constexpr double kLateSpeed = 0.02, kSharpSpeed = 0.03;
 
-/// The measured speed beside the scenario's profile; no rows where the speed is free or not recorded.
+/// The measured speed beside the scenario's profile; no rows where the speed is free or not
+/// recorded.
 MatchedColumn SpeedColumn(const CaseRecord& r) {
   MatchedColumn c;
   const Channel* omega = Find(r.data, {ChannelKind::kSpeed});
@@ -45,7 +48,8 @@ struct SpeedFactor {
   double factor = 1, left = 1;  // share of the error
 };
 
-/// The factor of a speed or an angle that leaves the least: one of a unit, or of a profile that moves any other if it leaves hardly anything.
+/// The factor of a speed or an angle that leaves the least: one of a unit, or of a profile that
+/// moves any other if it leaves hardly anything.
 std::optional<SpeedFactor> FactorOfSpeed(const MatchedColumn& c, double before) {
   constexpr double kOfUnit = 0.1, kOfAny = 0.02, kFarLess = 0.3;
   constexpr double kMoving = 0.2;  // of the profile's rms
@@ -68,7 +72,8 @@ std::optional<SpeedFactor> FactorOfSpeed(const MatchedColumn& c, double before) 
   return best.factor == 1 ? std::nullopt : std::optional(best);
 }
 
-/// The longest stretch in which the speed stands while its profile moves on, and but for which it follows the profile.
+/// The longest stretch in which the speed stands while its profile moves on, and but for which it
+/// follows the profile.
 HeldStretch StandingSpeed(const CaseRecord& r, const MatchedColumn& c) {
   constexpr std::size_t kLeastStretch = 20, kTimesUsualHold = 15;  // rows
   constexpr double kLeast = 1, kOfMost = 0.02;                     // [rad/s], of the largest speed
@@ -151,7 +156,8 @@ std::vector<double> WithoutTurns(const std::vector<double>& y) {
   return out;
 }
 
-/// The measured angle beside that of the profile, both about their means: where an encoder counts from says nothing.
+/// The measured angle beside that of the profile, both about their means: where an encoder counts
+/// from says nothing.
 MatchedColumn AngleColumn(const CaseRecord& r) {
   MatchedColumn c;
   const Channel* theta = Find(r.data, {ChannelKind::kAngle});

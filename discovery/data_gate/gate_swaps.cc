@@ -56,8 +56,8 @@ bool StandsStill(const GateColumn& c) {
 struct ExchangeSide {
   GateColumn& column;
   double error;  // beside a zero, as it stands [floors]
-  // The coil really carries what the column shows: its set-point asks for it, and the rest of its bearing errs too. A
-  // force of the other sign makes opposite coils look exchanged.
+  // The coil really carries what the column shows: its set-point asks for it, and the rest of its
+  // bearing errs too. A force of the other sign makes opposite coils look exchanged.
   bool carried;
 };
 
@@ -69,8 +69,8 @@ ExchangeSide ExchangeSideOf(const CaseModel& model, const std::vector<GateColumn
               OthersOf(columns, c).error > std::min(kAlone * error, kGrossError)};
 }
 
-/// Whether a third column of their kind that stands still errs by more than so many floors beside its zero: the shaft is
-/// elsewhere, or bent, and two positions agree by chance.
+/// Whether a third column of their kind that stands still errs by more than so many floors beside
+/// its zero: the shaft is elsewhere, or bent, and two positions agree by chance.
 bool OtherErrs(const std::vector<ExchangeSide>& all, const ExchangeSide& a, const ExchangeSide& b,
                double most) {
   return std::ranges::any_of(all, [&](const ExchangeSide& c) {
@@ -79,7 +79,8 @@ bool OtherErrs(const std::vector<ExchangeSide>& all, const ExchangeSide& a, cons
   });
 }
 
-/// The share of the error that an exchange of two of the columns leaves; 1 where it is not believed.
+/// The share of the error that an exchange of two of the columns leaves; 1 where it is not
+/// believed.
 double LeftByExchange(const CaseModel& model, const std::vector<ExchangeSide>& all,
                       const ExchangeSide& first, const ExchangeSide& second) {
   const GateColumn &a = first.column, &b = second.column;
@@ -115,8 +116,9 @@ std::vector<std::vector<std::size_t>> LongCycles(const std::vector<std::size_t>&
   return out;
 }
 
-/// The share of the error that is left if each column of the cycle shows what the model expects of the next one; 1 where it
-/// is not believed: each has to gain, and none may be a coil that really carries what it shows.
+/// The share of the error that is left if each column of the cycle shows what the model expects of
+/// the next one; 1 where it is not believed: each has to gain, and none may be a coil that really
+/// carries what it shows.
 double LeftByCycle(const std::vector<const ExchangeSide*>& sides, const Eigen::MatrixXd& error,
                    const std::vector<std::size_t>& cycle) {
   constexpr double kOfEach = 0.6;
@@ -134,8 +136,8 @@ double LeftByCycle(const std::vector<const ExchangeSide*>& sides, const Eigen::M
   return left < (still ? kLeftOfHeld : kLeftOfKind) ? left : 1;
 }
 
-/// Three columns of a kind and more that were passed on round a circle: the assignment of all that err to what the model
-/// expects of all, of which pairs are left to the look at pairs.
+/// Three columns of a kind and more that were passed on round a circle: the assignment of all that
+/// err to what the model expects of all, of which pairs are left to the look at pairs.
 void FindCycles(const CaseModel& model, const CaseRecord& r, const std::vector<ExchangeSide>& all,
                 std::vector<DataFault>& out) {
   std::map<std::pair<ChannelKind, bool>, std::vector<const ExchangeSide*>> by_kind;

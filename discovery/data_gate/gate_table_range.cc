@@ -28,7 +28,8 @@ void TellRow(const CaseRecord& r, const std::string& column, std::size_t row,
   out.push_back(f);
 }
 
-/// The rows of an output that are far beyond the others and beyond all that the model expects, where they are few.
+/// The rows of an output that are far beyond the others and beyond all that the model expects,
+/// where they are few.
 std::vector<std::size_t> FarRows(const CaseModel& model, const std::vector<double>& predicted,
                                  const Target& t, const StaticTable& table) {
   constexpr double kFew = 0.05;  // of the rows; more: the column's unit is wrong

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kGrossOfTable = 0.25;  // relative error, whatever the noise
 constexpr std::size_t kFewestRows = 4;
-// of what mistakes in the outputs leave, that one in what was set may leave to be told in their place
+// of what mistakes in the outputs leave, that one in what was set may leave to be told in their
+// place
 constexpr double kAsGood = 1.3, kClearlyBetter = 0.7;
 constexpr double kLeftOfTable = 0.15, kLeftOfAnyFactor = 0.08;  // of the relative error
 
@@ -75,8 +76,8 @@ struct TableFactor {
   double factor = 1, left = 1;  // of the relative error
 };
 
-/// The factor of an output that leaves the least; 1 where none is believed. Other outputs that err too may be the
-/// machine's doing: then only a sign or a prefix is.
+/// The factor of an output that leaves the least; 1 where none is believed. Other outputs that err
+/// too may be the machine's doing: then only a sign or a prefix is.
 TableFactor FactorOf(const OutputColumn& c, bool alone) {
   constexpr double kMostOfMachine = 1.6, kNear = 0.05;
   static constexpr std::array kPrefixes = {-1.0, 1e3, 1e-3, 1e6, 1e-6};
@@ -105,7 +106,8 @@ struct InputMistake {
   TableFactor found;
 };
 
-/// What the model leaves of the outputs if these inputs are `factor` times too large as written; 1 where it cannot say.
+/// What the model leaves of the outputs if these inputs are `factor` times too large as written; 1
+/// where it cannot say.
 double LeftWithInputs(const CaseModel& model, const Hypothesis& h, std::size_t record,
                       std::vector<OutputColumn> outputs, const std::vector<std::string>& inputs,
                       double factor) {

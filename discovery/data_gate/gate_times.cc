@@ -15,8 +15,9 @@ constexpr double kLeastShift = 5e-4;  // [s]: a smaller shift is a matter of the
 constexpr double kLeastRows = 10;     // of a block that is lost
 constexpr std::size_t kColumns = 5;   // that move most are looked at
 
-/// Beside an effect a shift leaves much. It is believed where it is longer than anything in a rig delays, where the movements
-/// say clearly that it is right, and where the prediction does not repeat itself: the phase of a whirl is no clock.
+/// Beside an effect a shift leaves much. It is believed where it is longer than anything in a rig
+/// delays, where the movements say clearly that it is right, and where the prediction does not
+/// repeat itself: the phase of a whirl is no clock.
 bool IsClear(const std::vector<const GateColumn*>& moving, const FoundShift& s, double rate) {
   constexpr double kSurely = 4e-3;                                // [s]
   constexpr double kLeft = 0.7, kBefore = 0.5, kAfter = 0.75;     // of all rows [-]
@@ -48,8 +49,9 @@ bool FindLateRecord(const CaseRecord& r, const std::vector<GateColumn>& columns,
   return believed;
 }
 
-/// Rows that one column lost within the record. The machine may make a column run ahead from some instant on, too, for
-/// example by a load that a rub carries in the magnet's place: a loss leaves the noise, and moves no other column.
+/// Rows that one column lost within the record. The machine may make a column run ahead from some
+/// instant on, too, for example by a load that a rub carries in the magnet's place: a loss leaves
+/// the noise, and moves no other column.
 bool LosesRows(const std::vector<GateColumn>& columns, const GateColumn& c, const FoundShift& s) {
   constexpr double kLeft = 0.15, kFloors = 2, kOfOthers = 0.1;
   return s.late < 0 && s.left < kLeft && s.left * c.match.error < kFloors &&
@@ -60,8 +62,8 @@ constexpr double kErrsPlainly = 2,
                  kNothingLeft =
                      1.15;  // floors before a shift and after it, where the error is not gross
 
-/// Whether a column may be late and nothing else: it errs plainly, all others of its bearing do not. No effect delays what
-/// one column logs alone, so that its error need not be gross.
+/// Whether a column may be late and nothing else: it errs plainly, all others of its bearing do
+/// not. No effect delays what one column logs alone, so that its error need not be gross.
 bool ErrsAlone(const std::vector<GateColumn>& columns, const GateColumn& c) {
   return c.match.error > kErrsPlainly && OthersOf(columns, c).error < kNothingLeft;
 }
@@ -91,7 +93,8 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
     if (s.all_rows ? std::abs(s.late) >= least && s.left < 0.3 : LosesRows(columns, c, s))
       late.emplace_back(&c, s);
   }
-  // a rig that is late is so in all its columns; a logger's own delay is in one or two, or in all of a kind
+  // a rig that is late is so in all its columns; a logger's own delay is in one or two, or in all
+  // of a kind
   if (late.size() > 2) late.clear();
   for (const auto& [c, s] : late) {
     out.push_back(TimeFault(r, c->name, s));

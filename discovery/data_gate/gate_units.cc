@@ -71,9 +71,9 @@ bool NoiseTells(const GateColumn& c, double factor) {
   return WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size()) > 0.3 * factor;
 }
 
-/// A column that stands at a level and hardly moves (the bus, a clamped shaft): its movement is noise and has no
-/// correlation with the prediction, but the level itself shows the factor, where it is far beyond any `zero` [SI].
-/// `movement`: the most that it may move, of its level.
+/// A column that stands at a level and hardly moves (the bus, a clamped shaft): its movement is
+/// noise and has no correlation with the prediction, but the level itself shows the factor, where
+/// it is far beyond any `zero` [SI]. `movement`: the most that it may move, of its level.
 bool LevelTells(const GateColumn& c, double zero, double movement) {
   constexpr double kFarFromZero = 6 * kGrossError;  // floors
   return c.match.predicted_rms > std::max(kFarFromZero, 2 * zero / c.floor) &&
@@ -134,8 +134,8 @@ bool OnlyNear(const Mistake& m, double rest, const Suspect& s) {
          Left(s.column, gain, s.error) < kFarLess * rest;
 }
 
-/// Whether a cause in the machine may have made such forces: the other load cell of the bearing errs too, and the factor is
-/// not one that both show and that no currents or gaps make.
+/// Whether a cause in the machine may have made such forces: the other load cell of the bearing
+/// errs too, and the factor is not one that both show and that no currents or gaps make.
 bool ForcesDiffer(double factor, const Suspect& s) {
   constexpr double kOfMachine = 2.5, kSame = 0.1;
   return std::ranges::any_of(s.cells, [&](const GateColumn* other) {
@@ -146,9 +146,9 @@ bool ForcesDiffer(double factor, const Suspect& s) {
   });
 }
 
-/// Whether the machine itself may make such a factor: a coil whose set-point shows it too carries that current; the zero
-/// of a sensor makes any factor below three of a position that is held; forces differ in both directions, which no
-/// other column shows.
+/// Whether the machine itself may make such a factor: a coil whose set-point shows it too carries
+/// that current; the zero of a sensor makes any factor below three of a position that is held;
+/// forces differ in both directions, which no other column shows.
 bool MachineMakes(double factor, const Suspect& s) {
   constexpr double kOfHeld = 3;
   if (s.borne_out) return true;
@@ -161,7 +161,8 @@ std::optional<double> LeftBy(const Mistake& m, const Suspect& s) {
   const GateColumn& c = s.column;
   if ((m.alone || m.correlation > 0) && MachineMakes(m.factor, s)) return {};
   const double rest = Left(c, m.factor, s.error);
-  // An effect in the rig leaves an error in every column: of one that stands alone no less is asked than of those.
+  // An effect in the rig leaves an error in every column: of one that stands alone no less is asked
+  // than of those.
   const double usual = m.alone ? kLikeOthers * s.others.error / s.error : 0;
   if (rest > std::max(m.left, std::min(usual, kMostLeft)) || !NoiseTells(c, m.factor)) return {};
   if (s.level ? m.correlation > 0 && rest > kLeftOfLevel : c.match.correlation < m.correlation)
@@ -192,8 +193,9 @@ double PowerOfTenNear(double gain) {
   return std::abs(gain / power - 1) < 0.01 ? power : gain;
 }
 
-/// The mistake of the list that leaves least, or any factor of the movement where none is believed or where it leaves far
-/// less: a prefix asks for no shape, and beside a factor of 1e4 it leaves little as well.
+/// The mistake of the list that leaves least, or any factor of the movement where none is believed
+/// or where it leaves far less: a prefix asks for no shape, and beside a factor of 1e4 it leaves
+/// little as well.
 std::optional<FoundFactor> BestFactor(const Suspect& s) {
   std::optional<FoundFactor> best;
   for (const Mistake& m : Mistakes())

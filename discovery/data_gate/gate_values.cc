@@ -110,7 +110,8 @@ std::vector<double> OffTheExtremes(const std::vector<double>& y, double low, dou
   return out;
 }
 
-/// Rows at the column's own extreme that the prediction passes by several floors; `hold`: rows of one reading.
+/// Rows at the column's own extreme that the prediction passes by several floors; `hold`: rows of
+/// one reading.
 std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, std::size_t hold,
                         double extreme, double sign) {
   std::size_t rows = 0;
@@ -124,8 +125,8 @@ std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, std::
   return rows > 0 && beyond > kBeyondFloors * static_cast<double>(rows) ? rows : 0;
 }
 
-/// Rows at the column's own extreme in stretches that no noise makes: of a column that never repeats a value elsewhere,
-/// far from the converter's own limits.
+/// Rows at the column's own extreme in stretches that no noise makes: of a column that never
+/// repeats a value elsewhere, far from the converter's own limits.
 std::size_t FlatTopRows(const CaseModel& model, const GateColumn& c, const std::vector<double>& y,
                         double low, double high) {
   constexpr std::size_t kRun = 8, kTimes = 3;
@@ -141,8 +142,8 @@ std::size_t FlatTopRows(const CaseModel& model, const GateColumn& c, const std::
   return times >= kTimes && share > kShare ? rows : 0;
 }
 
-/// Whether the prediction lies within the column's own extreme, at which it stands, by several floors for a part of the
-/// stretch: a limit lets go of what comes back.
+/// Whether the prediction lies within the column's own extreme, at which it stands, by several
+/// floors for a part of the stretch: a limit lets go of what comes back.
 bool StandsWhileItComesBack(const GateColumn& c, const HeldStretch& s, double sign) {
   const auto within = static_cast<double>(std::count_if(
       c.column.predicted.begin() + static_cast<std::ptrdiff_t>(s.first),
@@ -179,8 +180,8 @@ void TellClipped(const CaseRecord& r, GateColumn& c, std::size_t rows,
   c.explained = true;
 }
 
-/// Limits and stretches that stand still; with `from_first_row` the stretches from there on alone, which are not among the
-/// former.
+/// Limits and stretches that stand still; with `from_first_row` the stretches from there on alone,
+/// which are not among the former.
 void CheckStretches(const CaseModel& model, const CaseRecord& r, bool from_first_row,
                     std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
   for (GateColumn& c : columns) {
@@ -191,8 +192,8 @@ void CheckStretches(const CaseModel& model, const CaseRecord& r, bool from_first
         y.size() != c.column.size() || c.explained)
       continue;
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
-    // A record faster than the controller repeats every reading; a coarse converter repeats values everywhere, also
-    // between the extremes.
+    // A record faster than the controller repeats every reading; a coarse converter repeats values
+    // everywhere, also between the extremes.
     const std::size_t hold = RegularHold(y);
     if (UsualHold(OffTheExtremes(y, *low, *high)) > kCoarse * hold) continue;
     // limits have been looked at where stretches from the first row on are

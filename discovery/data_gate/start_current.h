@@ -1,5 +1,6 @@
 #pragma once
-/// Clamped records that begin under a current which nothing states: their first rows tell what went before.
+/// Clamped records that begin under a current which nothing states: their first rows tell what went
+/// before.
 #include <string>
 #include <vector>
 
@@ -15,9 +16,9 @@ struct UnstatedStart {
   double settled = 0;                  // [s] of the record: from there on it is forgotten
 };
 
-/// Records whose first row of some coil current differs by more than 5 floors from the prediction, while their rows
-/// behind five time constants L/R of the coil do so less. None where the scenario states the current ([start]
-/// current). `model` holds all rows, floors are set.
+/// Records whose first row of some coil current differs by more than 5 floors from the prediction,
+/// while their rows behind five time constants L/R of the coil do so less. None where the scenario
+/// states the current ([start] current). `model` holds all rows, floors are set.
 std::vector<UnstatedStart> UnstatedStartsOf(const CaseModel& model,
                                             const std::vector<double>& predicted);
 

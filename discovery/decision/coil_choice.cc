@@ -46,7 +46,8 @@ double SharedPart(std::vector<double> amounts) {
   return std::accumulate(amounts.begin(), amounts.end(), 0.0) / std::sqrt(n);
 }
 
-/// Least squares of the coils' errors (the first columns) and the free parameters of a fit, under their priors.
+/// Least squares of the coils' errors (the first columns) and the free parameters of a fit, under
+/// their priors.
 class JointStep {
  public:
   JointStep(const CaseModel& model, const std::vector<NuisanceKind>& possible, const FitResult& now)
@@ -90,8 +91,8 @@ class JointStep {
   /// Groups of which only what differs from their mean is taken for errors of coils.
   const std::vector<Group>& centred() const { return centred_; }
 
-  /// Takes the step with this weight of a squared error, without errors of coils that are not believable in it, and without
-  /// what all coils of a bearing have in common where that is not.
+  /// Takes the step with this weight of a squared error, without errors of coils that are not
+  /// believable in it, and without what all coils of a bearing have in common where that is not.
   void Take(double weight) {
     for (;;) {
       const Eigen::VectorXd x =
@@ -114,8 +115,9 @@ class JointStep {
         .cwiseSqrt();
   }
 
-  /// Whether the amounts of the step are what the coils of a machine differ by, all but those of one coil, and those of the
-  /// rig parameters what their tolerances allow: with the spreads that the rig file states.
+  /// Whether the amounts of the step are what the coils of a machine differ by, all but those of
+  /// one coil, and those of the rig parameters what their tolerances allow: with the spreads that
+  /// the rig file states.
   bool IsBelievable() const {
     const auto left = static_cast<std::size_t>(amounts_.size());
     if (left == 0 || left + kLeftOut < static_cast<std::size_t>(coils_)) return false;

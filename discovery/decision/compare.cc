@@ -86,7 +86,8 @@ RecordComparison RecordBeside(const CaseModel& model, const std::vector<double>&
   return out;
 }
 
-/// The blocks of a record. Noise that wrong data seem to show may throw the rotor of the comparison with it: then none.
+/// The blocks of a record. Noise that wrong data seem to show may throw the rotor of the comparison
+/// with it: then none.
 BlockErrors BlocksBeside(const CaseModel& model, const Hypothesis& h, std::size_t r,
                          std::vector<std::string>& words) {
   try {

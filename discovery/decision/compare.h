@@ -13,8 +13,8 @@ namespace ambrig {
 
 struct ChannelError {
   std::string channel;
-  // [-]: rms error over the rms of the data about its mean, nan for data that do not move; [SI unit of the channel], twice: rms error and noise
-  // floor; [-]: rms error over the floor
+  // [-]: rms error over the rms of the data about its mean, nan for data that do not move; [SI unit
+  // of the channel], twice: rms error and noise floor; [-]: rms error over the floor
   double nrmse = 0, rms_error = 0, noise = 0, ratio = 0;
   double whiteness = 0;  // correlation of neighbouring residuals, 0: white
 };

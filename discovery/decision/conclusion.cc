@@ -55,8 +55,9 @@ void SetsWith(Explanation& out, double named) {
       out.further_sets[Named(a)] = CredibleSet(ranking->second, named);
 }
 
-/// A name that explains a part only and that other names contest: what it may be expected to explain rightly, its
-/// probability times its share of the error, is too little. Other physics makes such names (docs/theory/discovery.md).
+/// A name that explains a part only and that other names contest: what it may be expected to
+/// explain rightly, its probability times its share of the error, is too little. Other physics
+/// makes such names (docs/theory/discovery.md).
 bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
   constexpr double kMost = 0.75;  // share of the error from which a name stands whatever its rivals
   constexpr double kLeast = 0.4;  // of probability times share
@@ -68,9 +69,9 @@ bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
   return false;
 }
 
-/// A law whose size came out with a sign that its usual physics does not have, and which leaves much: another force
-/// acts in that direction (a rub holds the shaft back at one place). Where it explains nearly all, the law is right and
-/// its sign says of what it is.
+/// A law whose size came out with a sign that its usual physics does not have, and which leaves
+/// much: another force acts in that direction (a rub holds the shaft back at one place). Where it
+/// explains nearly all, the law is right and its sign says of what it is.
 bool IsOfAnotherPhysics(const EffectInstance& e, const StageRatios& end, double explained) {
   constexpr double kNearlyAll = 0.9;  // of the squared error above the noise
   return HasImpossibleSign(e) && end.Answered() > kNoiseLeft && explained < kNearlyAll;

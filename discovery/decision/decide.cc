@@ -75,7 +75,8 @@ ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base
                              const ParameterNeed& need, FoundEffect found) {
   if (found == FoundEffect::kEstablished) return ExplanationVerdict::kEffect;
   const double after = base.Answered(), before = nominal.Answered();
-  // A channel among many may say that the numbers differ: parameters that bring it to the noise are needed.
+  // A channel among many may say that the numbers differ: parameters that bring it to the noise are
+  // needed.
   constexpr double kShowsInChannel = 1.5, kCured = 0.75;
   const bool channel_needs = nominal.worst_channel > kShowsInChannel &&
                              base.worst_channel < kCured * nominal.worst_channel;

@@ -11,8 +11,8 @@ namespace ambrig {
 /// parameter.
 bool Believable(const FitResult& fit);
 
-/// Whether tolerances alone make such shifts more than once in a thousand: what the verdict asks, when
-/// no effect was found that would bring them back.
+/// Whether tolerances alone make such shifts more than once in a thousand: what the verdict asks,
+/// when no effect was found that would bring them back.
 bool Possible(const FitResult& fit);
 
 /// Whether the step from `before` to `after` (one more effect) is more than chance and more than a
@@ -23,9 +23,10 @@ bool Possible(const FitResult& fit);
 bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round,
                    double first_fall);
 
-/// Whether one effect leaves nothing but noise, on unseen records too, where no other candidate gains a tenth as much: what
-/// nuisances leave of their own kind is closed a little by several. Asked beside nuisances that nobody declared.
-/// `score_gain`, `next_gain`: of the score, by this candidate and by the best of the others.
+/// Whether one effect leaves nothing but noise, on unseen records too, where no other candidate
+/// gains a tenth as much: what nuisances leave of their own kind is closed a little by several.
+/// Asked beside nuisances that nobody declared. `score_gain`, `next_gain`: of the score, by this
+/// candidate and by the best of the others.
 bool ClosesAlone(const FitResult& before, const FitResult& after, double score_gain,
                  double next_gain);
 
@@ -36,13 +37,14 @@ struct ParameterNeed {
   bool constant = true;      // those beyond 3 sd are the same in every record (drift test)
 };
 
-/// What the search for effects ended with: none that was worth adopting, one whose name stays in doubt, one that
-/// stands.
+/// What the search for effects ended with: none that was worth adopting, one whose name stays in
+/// doubt, one that stands.
 enum class FoundEffect { kNone, kDoubtful, kEstablished };
 
 /// Effect, parameters, none or unknown. Every record counts, fitted or not. An effect that
 /// was established is named whatever remains; five sd are never parameters, three only where the
-/// records agree on the shift. Parameters that leave a trace are the verdict only where no effect explains it.
+/// records agree on the shift. Parameters that leave a trace are the verdict only where no effect
+/// explains it.
 ExplanationVerdict VerdictOf(const StageRatios& nominal, const StageRatios& base,
                              const ParameterNeed& need, FoundEffect found);
 

@@ -106,8 +106,9 @@ bool HasSize(const EffectInstance& effect) {
     const double distance =
         std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
     if (distance == 0) continue;
-    // A size whose slope the records do not tell may be one that has none (whole periods of delay), or one too small
-    // to show (a dead duty below every duty): that is none of the usual size, beside sizes that are told.
+    // A size whose slope the records do not tell may be one that has none (whole periods of delay),
+    // or one too small to show (a dead duty below every duty): that is none of the usual size,
+    // beside sizes that are told.
     if (sd > 0 ? distance >= kSeen * sd : distance >= p.typical_lo) return true;
     (sd > 0 ? told : untold) = true;
   }

@@ -60,15 +60,17 @@ std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double na
 /// Whether at least one size of the effect (a parameter that switches it off at its null) is known
 /// to differ from nothing by three of its own sd. A size whose sd is not known counts as seen.
 bool HasSize(const EffectInstance& effect);
-/// The same of effect number `effect` of a fit, with the shape of its law held: a size that is known but
-/// for a time constant it goes with (a slow rise tells their quotient) is there all the same.
+/// The same of effect number `effect` of a fit, with the shape of its law held: a size that is
+/// known but for a time constant it goes with (a slow rise tells their quotient) is there all the
+/// same.
 bool HasSize(const FitResult& fit, std::size_t effect);
 
-/// Whether the size came out with a sign that its physics never has (a magnetic pull that holds the shaft back).
+/// Whether the size came out with a sign that its physics never has (a magnetic pull that holds the
+/// shaft back).
 bool HasImpossibleSign(const EffectInstance& effect);
 
-/// Whether the effect is a detail of the law of one of `adopted`: it acts on the same coil or the same axis of a
-/// sensor, and each of its sizes is less than half of the smallest usual one.
+/// Whether the effect is a detail of the law of one of `adopted`: it acts on the same coil or the
+/// same axis of a sensor, and each of its sizes is less than half of the smallest usual one.
 bool IsDetailOf(const std::vector<EffectInstance>& adopted, const EffectInstance& effect);
 
 }  // namespace ambrig

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t kParts = 3;  // of a record over time
-// Independent numbers in what a wrong law leaves, as far as they bear on one parameter: fewer than tell names apart,
-// because the error of a law is most like the law's own signature.
+// Independent numbers in what a wrong law leaves, as far as they bear on one parameter: fewer than
+// tell names apart, because the error of a law is most like the law's own signature.
 constexpr double kNumbersOfParameter = 30;
 
 /// One kind of channel in one part of a record: its scores JᵀR and its JᵀJ.
@@ -59,7 +59,8 @@ struct RowWeights {
   double fit = 0, noise = 0;
 };
 
-/// Variance [coordinates] of the value with covariance column `a` and variance a(k), by the blocks' scores.
+/// Variance [coordinates] of the value with covariance column `a` and variance a(k), by the blocks'
+/// scores.
 double VarianceOfScores(const std::vector<DataBlock>& blocks, const Eigen::VectorXd& a,
                         const RowWeights& weight) {
   double sum = 0;
@@ -68,8 +69,9 @@ double VarianceOfScores(const std::vector<DataBlock>& blocks, const Eigen::Vecto
   return sum;
 }
 
-/// The spread of what the blocks ask for. It is not divided by the number of records: under a law of another form each
-/// condition has a value of its own, and the one that the law is given by (a small orbit, say) is one more condition.
+/// The spread of what the blocks ask for. It is not divided by the number of records: under a law
+/// of another form each condition has a value of its own, and the one that the law is given by (a
+/// small orbit, say) is one more condition.
 double VarianceOfLaw(const std::vector<DataBlock>& blocks, const Eigen::VectorXd& a,
                      double variance, const RowWeights& weight) {
   std::vector<BlockValue> values;
@@ -82,8 +84,9 @@ double VarianceOfLaw(const std::vector<DataBlock>& blocks, const Eigen::VectorXd
   return VarianceBetween(values);
 }
 
-/// Variance [coordinates] that parameter `m` of an effect inherits from rig parameters that act like it: where
-/// two columns differ by no more than sensitivities err, the drawing alone tells how much is whose.
+/// Variance [coordinates] that parameter `m` of an effect inherits from rig parameters that act
+/// like it: where two columns differ by no more than sensitivities err, the drawing alone tells how
+/// much is whose.
 double VarianceOfAlike(const Hypothesis& h, const Eigen::MatrixXd& square, Index m) {
   constexpr double kErrs = 0.05;  // of a sensitivity (docs/theory/discovery.md 3)
   double variance = 0;

@@ -12,12 +12,12 @@ namespace {
 constexpr double kPrice = 20;  // of a kind, in 2 log likelihood, beside 3 for each record
 // Least part of the mean square of the amounts that is their spread.
 constexpr double kVarying = 0.5;
-// Or the part of the squared error that one amount for all records leaves: an effect that is there too may
-// resemble the kind in every record.
+// Or the part of the squared error that one amount for all records leaves: an effect that is there
+// too may resemble the kind in every record.
 constexpr double kMuchVarying = 0.1;
 constexpr double kMostOfError = 0.5;  // of the squared error, which no further effect explains
-// Of the squared error that is left: least that a kind explains which only the logger sees. There are
-// many of these, and an effect elsewhere resembles one or the other a little.
+// Of the squared error that is left: least that a kind explains which only the logger sees. There
+// are many of these, and an effect elsewhere resembles one or the other a little.
 constexpr double kWorth = 0.05;
 constexpr std::size_t kMostKinds = 10;  // kinds
 
@@ -53,8 +53,8 @@ Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::Vecto
   return out;
 }
 
-/// Whether most kinds of a group were chosen: what moved the zeros of three sensors from record to record moves the
-/// fourth one's, too.
+/// Whether most kinds of a group were chosen: what moved the zeros of three sensors from record to
+/// record moves the fourth one's, too.
 bool MostAreChosen(const std::vector<NuisanceKind>& possible,
                    const std::vector<NuisanceKind>& chosen, NuisanceGroup group) {
   const auto of_group = [&](const NuisanceKind& k) { return k.group == group; };

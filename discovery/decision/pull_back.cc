@@ -18,13 +18,15 @@ constexpr double kGain = 2;  // of 2 log posterior that a better point is worth 
 constexpr int kMostMoves = 4;
 constexpr double kAlike = 0.9;
 
-/// An effect's parameter that could take the place of a rig parameter, and by how much per unit of it.
+/// An effect's parameter that could take the place of a rig parameter, and by how much per unit of
+/// it.
 struct Replacement {
   std::size_t parameter = 0;
   double per_unit = 0, likeness = 0;  // cosine between the columns
 };
 
-/// Those whose columns on the fitted records are much like that of parameter `k`, the most alike first.
+/// Those whose columns on the fitted records are much like that of parameter `k`, the most alike
+/// first.
 std::vector<Replacement> ReplacementsOf(const Hypothesis& h, const Eigen::MatrixXd& gram,
                                         std::size_t k) {
   std::vector<Replacement> out;
@@ -102,7 +104,8 @@ class Puller {
     return false;
   }
 
-  /// Whether the point is better, as it is or with its replacement corrected once by what it leaves.
+  /// Whether the point is better, as it is or with its replacement corrected once by what it
+  /// leaves.
   bool Keeps(const Hypothesis& h, std::size_t replacement) {
     FitResult there = Fit(model_, h, point_);
     if (!there.converged) return false;

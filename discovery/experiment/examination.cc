@@ -59,8 +59,8 @@ struct ExaminationWriter {
     return axes;
   }
 
-  /// Lines of all axes interleaved, spread over 5 Hz to 1500 Hz or what the controller's rate allows, whole periods in
-  /// 2 s.
+  /// Lines of all axes interleaved, spread over 5 Hz to 1500 Hz or what the controller's rate
+  /// allows, whole periods in 2 s.
   std::string Multisine(double duration) {
     const std::vector<std::string> axes = Axes();
     std::string text;

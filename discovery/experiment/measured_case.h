@@ -9,8 +9,8 @@
 
 namespace ambrig {
 
-/// Usual noise of what logs a rig, rms: of the bus [V], of a load cell [N], which goes with the rotor's
-/// weight.
+/// Usual noise of what logs a rig, rms: of the bus [V], of a load cell [N], which goes with the
+/// rotor's weight.
 inline constexpr double kUsualBusNoise = 0.005;
 double UsualLoadCellNoise(const RigParameters& rig);
 

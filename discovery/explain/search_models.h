@@ -39,8 +39,8 @@ class SearchModels {
   };
   /// The noise that the records show, and the floors that it makes.
   FoundNoise FindNoise(const Hypothesis& nominal);
-  /// Leaves out the first rows of clamped records that begin under a current which nothing states; a
-  /// line for each.
+  /// Leaves out the first rows of clamped records that begin under a current which nothing states;
+  /// a line for each.
   std::vector<std::string> PassOverUnstatedStarts(const std::vector<double>& clean);
   /// Gross errors of the data, none of them hidden by noise that was estimated from them.
   std::vector<DataFault> InspectData(const Hypothesis& nominal, const FoundNoise& found);

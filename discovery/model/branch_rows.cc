@@ -16,7 +16,8 @@ constexpr double kJump = 6;             // floors
 constexpr double kBelongsToJump = 1;    // floors, of the rows beside it
 constexpr double kMostOfChannel = 0.3;  // of a channel
 constexpr double kMostError = 2;        // floors rms that a branch counts with
-// Lines through the drawing: points from -1.75 to 1.75 times a draw of the tolerances, half a draw apart.
+// Lines through the drawing: points from -1.75 to 1.75 times a draw of the tolerances, half a draw
+// apart.
 constexpr int kToleranceLines = 6, kPoints = 8;
 constexpr double kFirst = -1.75, kApart = 0.5;
 
@@ -44,8 +45,8 @@ std::vector<Hypothesis> PointsOnLine(const Hypothesis& nominal, int number) {
   return out;
 }
 
-/// Marks the rows of a target at which the third difference of four predictions on a line jumps: what is straight or
-/// bends evenly along the line has none.
+/// Marks the rows of a target at which the third difference of four predictions on a line jumps:
+/// what is straight or bends evenly along the line has none.
 void MarkJumps(const Target& t, const std::vector<const std::vector<double>*>& four,
                std::vector<char>& marks) {
   const auto jump = [&](std::size_t k) {

@@ -61,7 +61,8 @@ class AxisReplay {
     return measured_force - PidStep(pid_, Ts_, filter_, y, c.reference, c.force, state_);
   }
   void StartAt(double error) { state_.integral += error; }
-  /// Whether a command [N] is at the limit, where the integral stops: the states are unknown behind it.
+  /// Whether a command [N] is at the limit, where the integral stops: the states are unknown behind
+  /// it.
   bool AtLimit(double force) const { return std::abs(force) >= (1 - 1e-6) * f_max_; }
   /// Change of the reference that makes this error [m]; its own integral runs along.
   double Reference(double error) {

@@ -58,8 +58,8 @@ double SumOfSquaredCorrelations(const std::vector<double>& noise,
   return sum;
 }
 
-/// Independent rows times independent channels of one record: the latter from the spread of their correlations.
-/// `of`: its targets; `noise`: of one noisy run.
+/// Independent rows times independent channels of one record: the latter from the spread of their
+/// correlations. `of`: its targets; `noise`: of one noisy run.
 double IndependentNumbers(const CaseModel& model, const std::vector<const Target*>& of,
                           const std::vector<double>& noise) {
   if (!OverTime(model.data().records[of[0]->record]))  // every point was measured by itself
@@ -149,7 +149,8 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
     double square = 0.5 * (a * a + b * b);
     // load cells: noise of their own
     const bool reader_noise = id->kind == ChannelKind::kLoadCell;
-    // A current's noise is that of the runs, which differs from record to record: of one reading, or of the mean of many.
+    // A current's noise is that of the runs, which differs from record to record: of one reading,
+    // or of the mean of many.
     const bool of_runs =
         id->kind == ChannelKind::kCoilCurrent && !model.data().noise.contains(channel);
     if (const double used = model.noise_model.Used(channel); std::isfinite(used) && !of_runs)

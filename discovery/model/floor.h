@@ -11,12 +11,13 @@ struct NoiseFloor {
   std::vector<SampleSpan> unpredictable;  // left out of the model
 };
 
-/// Sets the floor of every target (rms), leaves out what is unpredictable (unpredictable_rows.h), and
-/// returns the effective count. A channel that noise does not reach gets the resolution of what measured
-/// it.
+/// Sets the floor of every target (rms), leaves out what is unpredictable (unpredictable_rows.h),
+/// and returns the effective count. A channel that noise does not reach gets the resolution of what
+/// measured it.
 NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h);
 
-/// Rows of a coloured series per independent one: 1 + 2 Σ ρ² over the lags up to 200 and a quarter of the rows.
+/// Rows of a coloured series per independent one: 1 + 2 Σ ρ² over the lags up to 200 and a quarter
+/// of the rows.
 double RowsPerIndependentOne(const std::vector<double>& v, std::size_t first, std::size_t count);
 
 }  // namespace ambrig

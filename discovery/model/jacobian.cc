@@ -10,8 +10,8 @@ namespace ambrig {
 
 namespace {
 
-/// The parameter moved by `fraction` of a step, back where its bound is in the way. The change of its
-/// coordinate; 0: it cannot move.
+/// The parameter moved by `fraction` of a step, back where its bound is in the way. The change of
+/// its coordinate; 0: it cannot move.
 double Move(Hypothesis& h, std::size_t parameter, double fraction) {
   const double at = h.Coordinate(parameter);
   for (const double by : {fraction, -fraction}) {
@@ -32,10 +32,10 @@ double SmallerOfOneSign(double a, double b) {
 
 using Prediction = std::optional<std::vector<double>>;
 
-// Changes of a prediction, rms over the rows in noise floors. A step that makes more is taken again with one that
-// should make the wanted change: over more than that a prediction is no straight line (where a loop nears its limit,
-// one sd of a leakage inductance changed it ten times as much as its slope says), over much less its jumps, some
-// hundredths of the floor, are divided by little.
+// Changes of a prediction, rms over the rows in noise floors. A step that makes more is taken again
+// with one that should make the wanted change: over more than that a prediction is no straight line
+// (where a loop nears its limit, one sd of a leakage inductance changed it ten times as much as its
+// slope says), over much less its jumps, some hundredths of the floor, are divided by little.
 constexpr double kMostChange = 3, kWantedChange = 1;
 constexpr double kLeastStep = 0.01, kStepOfLost = 0.1;  // of the first one; where it lost the rotor
 constexpr int kTimesLost = 3;

@@ -1,10 +1,11 @@
 #pragma once
 /// Frequency responses of a rig by its exact linearisation.
 ///
-/// Levitated: the closed loop of analysis/closed_loop.h. Held: the coils of the rig under their current
-/// loops at the positions and currents of the scenario,
+/// Levitated: the closed loop of analysis/closed_loop.h. Held: the coils of the rig under their
+/// current loops at the positions and currents of the scenario,
 ///
-///   x = [linkages | integrals | feedback],  one switching period per step (analysis/linear/period_map.h)
+///   x = [linkages | integrals | feedback],  one switching period per step
+///   (analysis/linear/period_map.h)
 ///
 /// What a record's columns mean stays: currents are the feedback of the amplifiers (mean over the
 /// switching period before the row), set-points those in force from the row on.
@@ -27,12 +28,14 @@ std::vector<Excitation> StandingExcitations(const Scenario& scenario);
 
 class LinearResponses {
  public:
-  /// `rig`: the hypothesis, `drawing`: the nominal rig, which the controller knows. @throws InputError
+  /// `rig`: the hypothesis, `drawing`: the nominal rig, which the controller knows. @throws
+  /// InputError
   LinearResponses(const RigParameters& rig, const RigParameters& drawing, const Scenario& scenario);
   ~LinearResponses();
 
   bool stable() const { return stable_; }
-  /// In which the slowest mode of a levitated rotor's loop falls to 1/e [s]; 0: held, or none falls.
+  /// In which the slowest mode of a levitated rotor's loop falls to 1/e [s]; 0: held, or none
+  /// falls.
   double SlowestDecay() const;
   /// At f [Hz], for every response in order.
   std::vector<std::complex<double>> At(double f, const std::vector<RigResponse>& responses) const;

@@ -19,8 +19,8 @@ struct ForceSeries {
   std::vector<double> x, y;
 };
 
-/// Of an eight-pole bearing whose shaft centre is at (x, y) [m], one value per row of the record. nullopt
-/// without all of its currents. Source: docs/theory/base_model.md section 2.
+/// Of an eight-pole bearing whose shaft centre is at (x, y) [m], one value per row of the record.
+/// nullopt without all of its currents. Source: docs/theory/base_model.md section 2.
 std::optional<ForceSeries> MagneticForce(const Record& data, const BearingParameters& bearing,
                                          const std::vector<double>& x,
                                          const std::vector<double>& y);

@@ -33,8 +33,8 @@ Eigen::RowVectorXd CommandRow(const BearingControl& control, std::size_t axes, E
          SolveSymmetricColumns(W.transpose() * W, W.transpose()).row(1 + side);
 }
 
-/// What is added to a reading passes the controller, which no effect changes, and is a force from there
-/// on; a load on the rotor is taken for one behind the controller.
+/// What is added to a reading passes the controller, which no effect changes, and is a force from
+/// there on; a load on the rotor is taken for one behind the controller.
 bool OfForce(const ResponsePoint& port) {
   return port.kind == PointKind::kSensorPort || port.kind == PointKind::kLoadPort;
 }
@@ -174,8 +174,8 @@ Spectrum MultisineMeasurement::SpectrumOf(const Record& run, const ResponsePoint
     for (std::size_t k = 0; k < y.size(); ++k)
       y[k] += sign * factor * excitation_.Value(run.TimeAt(k) + 1e-10);
   };
-  // the reading that holds what was added to it changes as the command behind an injected force does:
-  // both are the sensitivity of this loop
+  // the reading that holds what was added to it changes as the command behind an injected force
+  // does: both are the sensitivity of this loop
   const bool own = port_.kind == PointKind::kSensorPort && p.axis == port_.axis &&
                    (p.kind == PointKind::kReading || p.kind == PointKind::kError);
   switch (own ? PointKind::kCommand : p.kind) {

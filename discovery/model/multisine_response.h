@@ -1,8 +1,8 @@
 #pragma once
-/// A frequency response as a laboratory measures it, on the simulated rig: a small multisine at one port,
-/// the switching engine, spectra of the record over a whole number of periods of every line. It sees every
-/// effect. Against the same test without the effects that the linear model leaves out, transients, sampling
-/// and ripple cancel, so that a response is
+/// A frequency response as a laboratory measures it, on the simulated rig: a small multisine at one
+/// port, the switching engine, spectra of the record over a whole number of periods of every line.
+/// It sees every effect. Against the same test without the effects that the linear model leaves
+/// out, transients, sampling and ripple cancel, so that a response is
 ///
 ///   H = H_linear (without them) * test(with them) / test(without them)
 #include <complex>

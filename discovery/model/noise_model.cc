@@ -18,19 +18,19 @@ namespace ambrig {
 namespace {
 
 constexpr double kNoiseAgrees = 1.5;  // factor between stated and estimated noise
-// of the currents, whose ripple a wrong law of the iron changes at every edge: more than a factor of
-// two is needed before their noise is held to be larger than stated
+// of the currents, whose ripple a wrong law of the iron changes at every edge: more than a factor
+// of two is needed before their noise is held to be larger than stated
 constexpr double kCurrentAgrees = 2.5;
-// What is the same in every record is noise: a law that the model lacks acts more in one than in another.
-// Largest over smallest estimate of the records, outer tenths left out.
+// What is the same in every record is noise: a law that the model lacks acts more in one than in
+// another. Largest over smallest estimate of the records, outer tenths left out.
 constexpr double kUniform = 1.35;
 // Factor between stated and estimated noise where it is uniform.
 constexpr double kUniformAgrees = 1.1;
 constexpr std::size_t kLeastEstimates = 3;
 constexpr double kFilteredAgrees = 1.25;  // stated noise over the least error of the records
 constexpr double kTrial = 1e-3;           // of the ADC's range: current noise where none is stated
-// Of a code of the ADC, and at most of the trial's noise: with less the errors of its codes are no noise, and may be larger
-// than they are with noise.
+// Of a code of the ADC, and at most of the trial's noise: with less the errors of its codes are no
+// noise, and may be larger than they are with noise.
 constexpr double kDither = 0.5, kMostDither = 0.5;
 constexpr int kMostTrials = 3;  // of another current noise than stated
 constexpr double kNear = 0.1;   // of the noise tried
@@ -47,8 +47,8 @@ bool IsDirect(const std::string& channel) {
 
 std::string BusName() { return ChannelId{ChannelKind::kBus}.name(); }
 
-/// Rows in which a reading is new: a record that is faster than the controller repeats it, and the differences of equal
-/// neighbours have no noise.
+/// Rows in which a reading is new: a record that is faster than the controller repeats it, and the
+/// differences of equal neighbours have no noise.
 std::vector<std::size_t> NewRows(const double* measured, std::size_t count) {
   const std::vector<double> y(measured, measured + count);
   const bool held = RegularHold(y) > 1;
@@ -130,8 +130,8 @@ struct CurrentTrial {
   double together() const { return MedianOf(every); }
 };
 
-/// With this noise of an ADC sample, and with little: what comes through the set-points and of the ADC's codes is taken
-/// off. Nothing where the rotor is lost.
+/// With this noise of an ADC sample, and with little: what comes through the set-points and of the
+/// ADC's codes is taken off. Nothing where the rotor is lost.
 std::optional<CurrentTrial> TryCurrentNoise(const CaseModel& model, const Hypothesis& h,
                                             const NoiseModel& noise, const ByChannel& measured,
                                             const std::vector<double>& clean, double sample) {
@@ -165,8 +165,8 @@ std::optional<CurrentTrial> TryCurrentNoise(const CaseModel& model, const Hypoth
   return out;
 }
 
-/// rms of one ADC sample of a current, of every coil, from the white part of the currents. Codes of an ADC do not add to
-/// noise as noise does, so that a noise which is far off is tried again.
+/// rms of one ADC sample of a current, of every coil, from the white part of the currents. Codes of
+/// an ADC do not add to noise as noise does, so that a noise which is far off is tried again.
 void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::vector<double>& clean,
                       NoiseModel& noise) {
   const ByChannel measured = WhiteParts(model, model.measured(), clean, IsCurrent);
@@ -266,8 +266,8 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
       c.rows_per_number = whole->second.rows_per_number;
     }
     const double factor = uniform ? kUniformAgrees : kNoiseAgrees;
-    // Filtered noise has less in its fastest differences than as a whole: it is as large as stated where no record
-    // has a smaller error.
+    // Filtered noise has less in its fastest differences than as a whole: it is as large as stated
+    // where no record has a smaller error.
     const bool filtered = c.stated < kFilteredAgrees * least->second;
     Choose(c, factor, filtered ? kInfinity : factor);
   }

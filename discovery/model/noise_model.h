@@ -42,10 +42,11 @@ RigParameters WithNoise(const RigParameters& rig, const NoiseModel& noise);
 
 /// Estimates the noise of every position, load cell, bus and current column from the differences
 /// between records and prediction (discovery/data/noise_estimate.h). A stated noise is kept when it
-/// agrees with the estimate within a factor of 1.5, or is larger and no record has a smaller error. Noise that is the
-/// same in all stretches of the records but not white counts as a whole (filtered_noise.h); else, and where none is stated, the estimate is used. The noise of coil currents is told from what reaches them through the set-points by two
-/// simulations, with much and with little of it. `model` holds all rows. Without a prediction the stated noise is
-/// returned.
+/// agrees with the estimate within a factor of 1.5, or is larger and no record has a smaller error.
+/// Noise that is the same in all stretches of the records but not white counts as a whole
+/// (filtered_noise.h); else, and where none is stated, the estimate is used. The noise of coil
+/// currents is told from what reaches them through the set-points by two simulations, with much and
+/// with little of it. `model` holds all rows. Without a prediction the stated noise is returned.
 NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h);
 
 /// One line for every channel whose stated noise is not believed or was not stated.

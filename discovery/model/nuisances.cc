@@ -82,7 +82,8 @@ Nuisances::Weighing Nuisances::WeighingOf(const std::vector<char>* records) cons
   for (const InAll::Span& span : in_all_.spans)
     if (Tells(span, records)) normal += span.normal;
   const SymmetricEigen modes = EigenOfSymmetric(normal);
-  // of a mode of squared length s: (1 - 1/sqrt(1 + weight s))/s, which is weight/2 where s is little
+  // of a mode of squared length s: (1 - 1/sqrt(1 + weight s))/s, which is weight/2 where s is
+  // little
   const Eigen::VectorXd share = modes.values.unaryExpr([&](double s) {
     const double x = weight_in_all_ * std::max(0.0, s);
     return x < 1e-6 ? 0.5 * weight_in_all_ : weight_in_all_ * (1 - 1 / std::sqrt(1 + x)) / x;

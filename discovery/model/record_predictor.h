@@ -1,6 +1,6 @@
 #pragma once
-/// Seam: who predicts a record. The kind of the record decides; records over time have none of these,
-/// the switching engine runs their scenario (CaseModel::Simulated).
+/// Seam: who predicts a record. The kind of the record decides; records over time have none of
+/// these, the switching engine runs their scenario (CaseModel::Simulated).
 #include <memory>
 #include <vector>
 
@@ -12,7 +12,8 @@ class RecordPredictor {
  public:
   virtual ~RecordPredictor() = default;
   /// Values of every channel of the record's `data`, in its order and units (each over its sd), for
-  /// this hypothesis. false: the hypothesis cannot have been measured (its loop is unstable). Thread-safe.
+  /// this hypothesis. false: the hypothesis cannot have been measured (its loop is unstable).
+  /// Thread-safe.
   virtual bool Predict(const RigParameters& rig,
                        std::vector<std::vector<double>>& columns) const = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
-/// Values of a simulated record at the rows of a measured one: between two rows of the simulation along a straight line.
+/// Values of a simulated record at the rows of a measured one: between two rows of the simulation
+/// along a straight line.
 #include <algorithm>
 #include <vector>
 
@@ -7,7 +8,8 @@
 
 namespace ambrig {
 
-/// Of a channel `y` that was sampled with `rate` from t = 0, at row `row` of `data`. Beyond its end the last one.
+/// Of a channel `y` that was sampled with `rate` from t = 0, at row `row` of `data`. Beyond its end
+/// the last one.
 inline double AtRow(const std::vector<double>& y, double rate, const Record& data,
                     std::size_t row) {
   const double at = data.start * rate + static_cast<double>(row) * (rate / data.rate);

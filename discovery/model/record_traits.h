@@ -1,6 +1,6 @@
 #pragma once
-/// What a record over time holds for a model: which of its channels the engine predicts, and whether its
-/// rotor touches something.
+/// What a record over time holds for a model: which of its channels the engine predicts, and
+/// whether its rotor touches something.
 #include <cstdint>
 #include <string>
 
@@ -14,15 +14,17 @@ inline constexpr double kLoopsSettle = 0.004;
 /// Whether the engine predicts this channel: not what the scenario or the clamp prescribes.
 bool IsPredicted(const CaseRecord& record, const std::string& channel);
 
-/// Whether a row at time t [s] of a record can be compared. With imposed motion what the coils carried before the
-/// first row is not known where a controller fed them: the first 4 ms are left out. With imposed currents the
-/// rotor's first velocity is not known: its observer has forgotten it after one period of its frequency.
+/// Whether a row at time t [s] of a record can be compared. With imposed motion what the coils
+/// carried before the first row is not known where a controller fed them: the first 4 ms are left
+/// out. With imposed currents the rotor's first velocity is not known: its observer has forgotten
+/// it after one period of its frequency.
 bool HasSettled(const CaseRecord& record, double t);
 
-/// What drives a record with imposed currents: these and the positions, without gaps. What drives a record with
-/// imposed motion: its positions (and set-points, where they were measured)
-/// without gaps; axes that were not measured stand where the scenario holds them. Currents and duties that the
-/// scenario itself commands to a clamped rig are taken from there: a record's row tells their edges late.
+/// What drives a record with imposed currents: these and the positions, without gaps. What drives a
+/// record with imposed motion: its positions (and set-points, where they were measured) without
+/// gaps; axes that were not measured stand where the scenario holds them. Currents and duties that
+/// the scenario itself commands to a clamped rig are taken from there: a record's row tells their
+/// edges late.
 Record DrivingRecord(const RigParameters& rig, const CaseRecord& record);
 
 /// The same positions and currents measured once more: with the noise of `rig` and a seed.

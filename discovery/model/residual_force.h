@@ -1,7 +1,8 @@
 #pragma once
 /// Unmodelled force, estimated from the measurements alone: magnetic forces from measured
 /// currents and positions, accelerations from smoothed measured positions, and the difference.
-///   f_missing(plane) = forces that the rigid rotor's motion needs - magnetic forces - weight - loads
+///   f_missing(plane) = forces that the rigid rotor's motion needs - magnetic forces - weight
+///   - loads
 #include <optional>
 #include <string>
 #include <vector>

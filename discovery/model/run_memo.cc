@@ -29,8 +29,8 @@ bool Turns(const Scenario& s) {
   return s.speed_free_from < s.duration;
 }
 
-/// A held rotor's record does not feel what acts on a free one only. Not so a delay of the set-points
-/// and what turns the surface under a sensor.
+/// A held rotor's record does not feel what acts on a free one only. Not so a delay of the
+/// set-points and what turns the surface under a sensor.
 bool Feels(const EffectInstance& e, bool clamped) {
   const EffectDescription* d = FindEffect(e.name);
   if (!clamped || !d || e.IsFormula()) return true;

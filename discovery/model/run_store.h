@@ -1,7 +1,7 @@
 #pragma once
 /// The simulations of an explain run on disk (core/base/journal.h): an interrupted one, called
-/// again, finds them and goes on where it stopped, with the same bits. Entries are told apart by everything that a prediction
-/// depends on; a store of another case or another build is refused.
+/// again, finds them and goes on where it stopped, with the same bits. Entries are told apart by
+/// everything that a prediction depends on; a store of another case or another build is refused.
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -32,7 +32,8 @@ class RunStore {
   /// @throws InputError
   RunStore(const std::string& folder, const Case& c);
 
-  /// Of a simulation that is there, with as many rows as the key has: they are written to `out`; false: it lost its rotor.
+  /// Of a simulation that is there, with as many rows as the key has: they are written to `out`;
+  /// false: it lost its rotor.
   std::optional<bool> Find(const RunKey& key, double* out) const;
   /// Thread-safe. @throws InputError (full disk ...)
   void Keep(const RunKey& key, bool fine, const double* rows);

@@ -1,17 +1,19 @@
 #pragma once
-/// A static table: what a bearing does at a standing position with standing currents, by the magnetics of
-/// the hypothesis with all its effects (iron laws as after a slow rise of the current).
+/// A static table: what a bearing does at a standing position with standing currents, by the
+/// magnetics of the hypothesis with all its effects (iron laws as after a slow rise of the
+/// current).
 ///
 ///   A.fx, A.fy   force on the rotor at those currents                        [N]
 ///   A.lambda1    linkage of coil 1                                           [Wb]
 ///   A.L1         its slope over the coil's own current, all others held      [H]
-///   A.L1@f, A.R1@f  inductance and resistance in series that an LCR meter reads at f Hz  [H], [ohm]
+///   A.L1@f, A.R1@f  inductance and resistance in series that an LCR meter reads at f Hz  [H],
+///   [ohm]
 ///
 /// A column `frequency` [Hz] among the inputs says f row by row. The meter's current is 1 mA: the
 /// iron laws are stepped through it, so that eddy currents and hysteresis show.
 ///
-/// Positions are those of the shaft at the magnets and currents those of the coils: what they were set
-/// with is a gauge of the bench, not the rig's sensors.
+/// Positions are those of the shaft at the magnets and currents those of the coils: what they were
+/// set with is a gauge of the bench, not the rig's sensors.
 #include "actuators/magnetics/lane.h"
 #include "discovery/model/record_predictor.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// A column over all rows of a model that is zero except in some stretches of rows. Copies share their values.
+/// A column over all rows of a model that is zero except in some stretches of rows. Copies share
+/// their values.
 #include <Eigen/Dense>
 #include <memory>
 #include <vector>

@@ -38,8 +38,8 @@ Eigen::MatrixXd PrecisionOf(const CaseModel& model, const FitResult& fit, double
   return P;
 }
 
-/// What a record will have of its own: as declared; else zeros of the position sensors of usual size, which differ from
-/// record to record on most rigs and are told by no one.
+/// What a record will have of its own: as declared; else zeros of the position sensors of usual
+/// size, which differ from record to record on most rigs and are told by no one.
 NuisancePriors NuisancesToExpect(const RigParameters& rig, const NuisancePriors& declared) {
   NuisancePriors out = declared;
   if (out.any()) return out;

@@ -37,7 +37,8 @@ double ShareOfRight(const Explanation& e, const NamedEffect& right, const NamedE
   return a + b > 0 ? a / (a + b) : 0.5;
 }
 
-/// The right name and the most probable of the others. @throws InputError where one of them is missing
+/// The right name and the most probable of the others. @throws InputError where one of them is
+/// missing
 Pair PairOf(const PracticeCase& made, const Explanation& e) {
   Pair pair;
   for (const RankedEffect& r : e.ranking) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Whether a plan keeps its promise: one record of a practice case leaves two names open, the plan proposes the next
-/// record, the true rig makes it, and explain says which name is the right one with it. The true law is not the
-/// catalogue's.
+/// Whether a plan keeps its promise: one record of a practice case leaves two names open, the plan
+/// proposes the next record, the true rig makes it, and explain says which name is the right one
+/// with it. The true law is not the catalogue's.
 #include <functional>
 #include <map>
 #include <optional>

@@ -24,7 +24,8 @@ Eigen::VectorXd Difference(const TrialRecord& trial, const std::vector<double>& 
   return d;
 }
 
-/// Targets by how much of the signature they hold, the largest first, as many as vary by themselves.
+/// Targets by how much of the signature they hold, the largest first, as many as vary by
+/// themselves.
 std::vector<const Target*> LargestTargets(const TrialRecord& trial,
                                           const Eigen::VectorXd& signature) {
   const auto squares = [&](const Target* t) {

@@ -34,13 +34,15 @@ struct TrialRecord {
   std::unique_ptr<Case> data;
   std::unique_ptr<CaseModel> model;
   double row_weight = 1;  // of a squared error over the floor
-  // what the record may have beside physics (nuisances.h), one sd each: columns over the floor; none: no columns
+  // what the record may have beside physics (nuisances.h), one sd each: columns over the floor;
+  // none: no columns
   Eigen::MatrixXd nuisances;
 };
 
-/// How far the law of a real machine is from the catalogue's is not known, only how often it is how far: in every eighth of a
-/// record, and in every channel, the effect's signature may differ by `size` (sd, of itself). What stays of effects that were named rightly in cases
-/// of ambrig practice (docs/theory/plan.md).
+/// How far the law of a real machine is from the catalogue's is not known, only how often it is how
+/// far: in every eighth of a record, and in every channel, the effect's signature may differ by
+/// `size` (sd, of itself). What stays of effects that were named rightly in cases of ambrig
+/// practice (docs/theory/plan.md).
 struct LawVariation {
   double size, share;
 };
@@ -52,16 +54,16 @@ inline constexpr std::size_t kLawChannels = 16;  // those that show most of it
 std::optional<RivalView> ViewOf(const TrialRecord& trial, const Rival& rival,
                                 const std::vector<double>& nothing);
 
-/// Squared distance of two rivals' predictions in standard deviations, whatever their numbers and laws do to come nearer:
-/// min over b of |d - C b|² + bᵀ P b. One for each of kLawVariations.
+/// Squared distance of two rivals' predictions in standard deviations, whatever their numbers and
+/// laws do to come nearer: min over b of |d - C b|² + bᵀ P b. One for each of kLawVariations.
 std::vector<double> SquaredDistances(const TrialRecord& trial, const RivalView& a,
                                      const RivalView& b);
 
 /// -2 ln of the evidence of a record under a rival, constants left out. `data`: rows of the trial.
 double Disbelief(const TrialRecord& trial, const RivalView& view, const std::vector<double>& data);
 
-/// Probability that the nearer of two models is the right one: Φ(Δ/2) at a squared distance Δ², and the mean of that over
-/// kLawVariations.
+/// Probability that the nearer of two models is the right one: Φ(Δ/2) at a squared distance Δ², and
+/// the mean of that over kLawVariations.
 double ProbabilityRight(double squared_distance);
 double ProbabilityRight(const std::vector<double>& squared_distances);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The true rig of a practice case, sampled: rig parameters within their sd, effects within their usual
-/// size at a place of the rig.
+/// The true rig of a practice case, sampled: rig parameters within their sd, effects within their
+/// usual size at a place of the rig.
 #include <cstdint>
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace ambrig {
 
-/// Another machine of the type: every toleranced parameter moved by a normal draw, at most 2.5 sd, and another `unit`, whose
-/// coils differ as the rig file says.
+/// Another machine of the type: every toleranced parameter moved by a normal draw, at most 2.5 sd,
+/// and another `unit`, whose coils differ as the rig file says.
 RigParameters DrawRig(const RigParameters& rig, std::uint64_t seed);
 
 /// `wanted`, or with "" one of the targets of this rig. @throws InputError that lists them

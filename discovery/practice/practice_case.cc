@@ -169,8 +169,8 @@ class PracticeMaker {
     if (out_.kind == "nothing") parameters_show_ = ParametersShow(model, floor.clean);
   }
 
-  /// Whether what the unit's parameters change of the records is more than a part of the noise. All rows count, those that
-  /// noise makes unpredictable too.
+  /// Whether what the unit's parameters change of the records is more than a part of the noise. All
+  /// rows count, those that noise makes unpredictable too.
   bool ParametersShow(const CaseModel& model, const std::vector<double>& as_drawn) const {
     constexpr double kShows = 1.05;  // error over the noise of the rig file's model
     const auto as_filed = model.Predict(Hypothesis::Base(believed_));
@@ -182,7 +182,8 @@ class PracticeMaker {
     return std::sqrt(1 + change / static_cast<double>(model.size())) > kShows;
   }
 
-  /// A law that brings the loops to the edge of stability leaves records of noise and initial states.
+  /// A law that brings the loops to the edge of stability leaves records of noise and initial
+  /// states.
   void RequireCalm(const CaseModel& quiet) const {
     CaseModel model(out_.data);
     model.stop = stop_;

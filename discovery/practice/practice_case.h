@@ -33,8 +33,8 @@ struct PracticeCase {
   std::string rig_text, case_text, answer_text;  // of rig.toml, case.toml, answers
 };
 
-/// Kind of case number `number` (0: first): of 20 cases 9 have one effect, 2 two, 1 three, 2 physics outside
-/// the catalogue, 2 nothing, 4 wrong data.
+/// Kind of case number `number` (0: first): of 20 cases 9 have one effect, 2 two, 1 three, 2
+/// physics outside the catalogue, 2 nothing, 4 wrong data.
 std::string KindOfPracticeCase(std::size_t number);
 
 /// "case-0007"
@@ -43,7 +43,8 @@ std::string NameOfPracticeCase(std::size_t number);
 /// Whether calibration is fitted with this law family (else it is checked with it).
 bool FamilyIsForFit(const std::string& family);
 
-/// Makes case `number`. Laws that these records do not show or that lose the rotor are sampled again.
+/// Makes case `number`. Laws that these records do not show or that lose the rotor are sampled
+/// again.
 /// @throws InputError when no rig or law works, Interrupted when `stop` is set.
 PracticeCase MakePracticeCase(const std::vector<PracticeRig>& rigs, std::uint64_t seed,
                               std::size_t number, const std::atomic<bool>* stop = nullptr);

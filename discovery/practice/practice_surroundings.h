@@ -1,6 +1,6 @@
 #pragma once
-/// What surrounds the laws of a practice case: sizes of the rig, noise and what the case says of it,
-/// nuisances of each record.
+/// What surrounds the laws of a practice case: sizes of the rig, noise and what the case says of
+/// it, nuisances of each record.
 #include <atomic>
 #include <map>
 #include <string>
@@ -34,7 +34,8 @@ void SetTrueNoise(const Surroundings& s, RigParameters& truth, Case& data);
 void FillRecords(const Surroundings& s, const Hypothesis& truth, std::uint64_t seed,
                  const std::atomic<bool>* stop, Case& data);
 
-/// Answers that count as right for an effect at a target: itself and what no record can tell from it.
+/// Answers that count as right for an effect at a target: itself and what no record can tell from
+/// it.
 std::vector<NamedEffect> RightNames(const std::string& effect, const std::string& target);
 
 std::string PracticeCaseText(const Surroundings& s, const std::vector<ExaminationRecord>& records);

@@ -29,8 +29,8 @@ double Movement(const Samples& y) {
   return y.empty() ? 0 : *high - *low;
 }
 
-/// Median difference from row to row, of rows that do not repeat the one before: a record may be faster than the
-/// controller that takes the readings.
+/// Median difference from row to row, of rows that do not repeat the one before: a record may be
+/// faster than the controller that takes the readings.
 double UsualStep(const Samples& y) {
   Samples steps;
   for (std::size_t k = 1; k < y.size(); ++k)
@@ -38,7 +38,8 @@ double UsualStep(const Samples& y) {
   return steps.empty() ? 0 : MedianOf(std::move(steps));
 }
 
-/// Whether a column shows more than noise about zero: what is done to that cannot be seen, and does no harm.
+/// Whether a column shows more than noise about zero: what is done to that cannot be seen, and does
+/// no harm.
 bool ShowsSomething(const Samples& y) {
   if (y.size() < 2) return false;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());

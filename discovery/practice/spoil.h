@@ -16,13 +16,13 @@ struct Spoiling {
   double amount = 0;    // how much goes wrong; 0: as usual
 };
 
-/// Changes the data of record `record` (0: first) of the case and says what was done in one line. Amounts and what is
-/// usual:
-/// unit: times too large (1000); swap: with the column of its kind that differs most; lag: seconds that all columns are
-/// late (0.02); instrument: seconds that all positions are late (0.004); lost: share of the record that is missing in the
-/// middle, later rows come earlier (0.08); clip: share of the largest value that is left (0.6); freeze: share of the
-/// record (0.15); range: one sample so many times too large (1e4); scenario: the data of another record with the same
-/// start and rate are exchanged with these.
+/// Changes the data of record `record` (0: first) of the case and says what was done in one line.
+/// Amounts and what is usual: unit: times too large (1000); swap: with the column of its kind that
+/// differs most; lag: seconds that all columns are late (0.02); instrument: seconds that all
+/// positions are late (0.004); lost: share of the record that is missing in the middle, later rows
+/// come earlier (0.08); clip: share of the largest value that is left (0.6); freeze: share of the
+/// record (0.15); range: one sample so many times too large (1e4); scenario: the data of another
+/// record with the same start and rate are exchanged with these.
 /// @throws InputError for an unknown fault or a record that cannot show it.
 std::string Spoil(Case& c, std::size_t record, const Spoiling& what, std::uint64_t seed);
 

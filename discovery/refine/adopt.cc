@@ -49,7 +49,8 @@ void RequireAdoptable(const Case& c, const EffectDescription& d, const std::stri
     RequireTarget(d, c.rig, target, fmt::format("--target = {}, allowed with {}:", target, d.id));
 }
 
-/// The errors of all rows, which a search sees a part of. @throws InputError when nothing was predicted: the rotor is lost
+/// The errors of all rows, which a search sees a part of. @throws InputError when nothing was
+/// predicted: the rotor is lost
 LadderStep StepTo(const std::string& added, const CaseModel& full,
                   const std::optional<std::vector<double>>& predicted) {
   if (!predicted) throw InputError(full.data().file + ": the model loses levitation with " + added);
@@ -57,7 +58,8 @@ LadderStep StepTo(const std::string& added, const CaseModel& full,
   return {added, Ratio(full, residual, Which::kFit), UnseenRatio(full, residual)};
 }
 
-/// The last fit, beside what the coils of the machine differ by, which its rig then holds where that is without doubt.
+/// The last fit, beside what the coils of the machine differ by, which its rig then holds where
+/// that is without doubt.
 FitResult FitToTheEnd(CaseModel& model, const FitResult& found, double independent) {
   const bool known = RenewCoilErrors(model, found.hypothesis, independent);
   FitResult last = LastFit(model, found, independent);

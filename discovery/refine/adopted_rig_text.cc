@@ -128,8 +128,8 @@ std::string WithEffects(std::string text, const std::string& file,
   return text + added;
 }
 
-/// The errors that the coils of a bearing are known to have, none of them to more than four digits; lists that the file has
-/// stay as written.
+/// The errors that the coils of a bearing are known to have, none of them to more than four digits;
+/// lists that the file has stay as written.
 std::string WithCoilErrors(std::string text, const std::string& file, const BearingParameters& b) {
   const std::string path = fmt::format("bearings.{}.coil_errors", b.name);
   const auto put = [&](const std::string& key, const std::vector<double>& errors) {

@@ -32,8 +32,8 @@ Comparison Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) 
   return before;
 }
 
-/// What the coils of the machine differ by is without doubt beside the shape, if anywhere: law and shape are then fitted
-/// once more beside it, and their rigs hold it.
+/// What the coils of the machine differ by is without doubt beside the shape, if anywhere: law and
+/// shape are then fitted once more beside it, and their rigs hold it.
 void FitBesideCoilErrors(const CaseModel& thin, const ShapeFitOptions& options, NamedLaw& law,
                          Refinement& out) {
   FitOptions same;

@@ -56,9 +56,9 @@ FitResult FitResonance(const CaseModel& model, const Hypothesis& start, const Fi
   return TryFit(model, h, options);
 }
 
-/// `start` without the optional shapes of its last effect: those whose null lies below their usual range are put
-/// there and held. Nothing where it has none. A fit of such a shape has no slope near its null, and may end far
-/// from there.
+/// `start` without the optional shapes of its last effect: those whose null lies below their usual
+/// range are put there and held. Nothing where it has none. A fit of such a shape has no slope near
+/// its null, and may end far from there.
 std::optional<Hypothesis> WithoutOptionalShapes(const Hypothesis& start) {
   if (start.rig.effects.empty()) return {};
   Hypothesis h = start;
@@ -79,15 +79,15 @@ std::optional<Hypothesis> WithoutOptionalShapes(const Hypothesis& start) {
   return any ? std::optional(h) : std::nullopt;
 }
 
-/// From how many starts a climb is worth its simulations: the more the best explains as it stands, the less likely
-/// another valley holds more. Few beside effects that were adopted.
+/// From how many starts a climb is worth its simulations: the more the best explains as it stands,
+/// the less likely another valley holds more. Few beside effects that were adopted.
 std::size_t StartsToClimb(const SimulatedStart& best, bool beside_adopted) {
   if (beside_adopted || best.share > 0.8) return 2;
   return best.share > 0.4 ? 3 : 5;
 }
 
-/// The starts that explain most when they are simulated: the best as it stands, and the best that is
-/// reached from it or another.
+/// The starts that explain most when they are simulated: the best as it stands, and the best that
+/// is reached from it or another.
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {

@@ -10,8 +10,8 @@ namespace ambrig {
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
                      double effective_sample_size);
 
-/// A short fit from a start that is nearly right (its neighbours were fitted), without sensitivities. `now`
-/// as in FitOn.
+/// A short fit from a start that is nearly right (its neighbours were fitted), without
+/// sensitivities. `now` as in FitOn.
 FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothesis& start,
                      double effective_sample_size);
 

@@ -61,8 +61,8 @@ class Ranker {
     screen.effective_sample_size = s_.effective_sample_size;
     screen.frequencies =
         round_ == 0 || std::max(now_.ratio_fit, now_.ratio_validate) > kResonanceShows;
-    // A resonance moves the rotor: where readings and set-points are explained there is none to seek,
-    // however much the currents leave. Responses and static tables may show it otherwise.
+    // A resonance moves the rotor: where readings and set-points are explained there is none to
+    // seek, however much the currents leave. Responses and static tables may show it otherwise.
     screen.resonances = shows_motion_;
     screen.progress = [&](double f, const std::string& text) {
       s_.progress(0.6 * f, "screening " + text);
@@ -89,9 +89,9 @@ class Ranker {
   }
 
  private:
-  /// Rig parameters that had to move far may stand in for an effect that changes what they change (a
-  /// longer gap for the reluctance of the iron). The fit so far then leaves little to show that effect;
-  /// the rig file's own parameters do.
+  /// Rig parameters that had to move far may stand in for an effect that changes what they change
+  /// (a longer gap for the reluctance of the iron). The fit so far then leaves little to show that
+  /// effect; the rig file's own parameters do.
   void ScreenFromNominal() {
     constexpr double kFar = 4;         // [sd]
     constexpr std::size_t kTried = 3;  // effects
@@ -130,8 +130,8 @@ class Ranker {
         FitTheStart(candidates[next]);
   }
 
-  /// Other laws at the place of the best: their linear promise says little of how they compare, and a
-  /// name given without them would be too sure.
+  /// Other laws at the place of the best: their linear promise says little of how they compare, and
+  /// a name given without them would be too sure.
   void FitRivalsOfTheBest() {
     constexpr int kRivals = 3;
     constexpr double kSome = 0.3;  // of the error above the noise, by the linear promise
@@ -171,8 +171,8 @@ class Ranker {
       *same = std::move(r);
   }
 
-  /// A short fit may end on the way, and where both the best and the next explain most of the error, which of them it is that
-  /// did says nothing: the next go on while that gains.
+  /// A short fit may end on the way, and where both the best and the next explain most of the
+  /// error, which of them it is that did says nothing: the next go on while that gains.
   void ContinueTheNext() {
     constexpr std::size_t kNext = 2;
     constexpr int kTimes = 2;

@@ -16,7 +16,8 @@ struct RankedEffect {
   EffectInstance effect;  // fitted values and sd
   double score = 0, probability = 0;
   double screened_ratio = 0;  // what the linear screening promised on unseen records
-  // what the law leaves in a free shape (discovery/shape/shape_names.h), where that was tried and is less
+  // what the law leaves in a free shape (discovery/shape/shape_names.h), where that was tried and
+  // is less
   std::optional<StageRatios> shaped;
 
   /// Errors over the noise that count for the name: of the free shape, else of the fit.
@@ -43,8 +44,8 @@ struct EffectRound {
   std::vector<Candidate> screened;
 };
 
-/// Probabilities of a ranking's members (best first) from their scores and from the shares of the error
-/// of `before` that they explain.
+/// Probabilities of a ranking's members (best first) from their scores and from the shares of the
+/// error of `before` that they explain.
 void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& ranking);
 
 /// Effects to add to `now`, which has `round` effects already.

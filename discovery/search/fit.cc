@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Sd of a value that acts in whole switching periods: of all values between two steps. 0 for others.
+/// Sd of a value that acts in whole switching periods: of all values between two steps. 0 for
+/// others.
 double SdOfWholePeriods(const CaseModel& model, const RigParameters& rig, const FreeParameter& f) {
   const EffectInstance& e = rig.effects[static_cast<std::size_t>(f.effect)];
   const EffectDescription* d = FindEffect(e.name);
@@ -135,8 +136,8 @@ void Fail(FitResult& result) {
   result.converged = false;
 }
 
-/// Prediction, ratios and prior's penalty at the hypothesis of the result; with a `look` of its records
-/// only, which leaves the other ratio without meaning.
+/// Prediction, ratios and prior's penalty at the hypothesis of the result; with a `look` of its
+/// records only, which leaves the other ratio without meaning.
 bool EvaluateAtPoint(const CaseModel& model, const RecordSubset* look, FitResult& result) {
   const auto predicted = model.PredictAll({result.hypothesis}, ModelFidelity::kAsSampled, look)[0];
   if (!predicted) return false;
@@ -149,8 +150,8 @@ bool EvaluateAtPoint(const CaseModel& model, const RecordSubset* look, FitResult
   return true;
 }
 
-/// Passes of the solver from the hypothesis of the result, which is evaluated on all records at the end.
-/// false: nothing to go on with; the result says so.
+/// Passes of the solver from the hypothesis of the result, which is evaluated on all records at the
+/// end. false: nothing to go on with; the result says so.
 bool Improve(const CaseModel& model, const FitOptions& options, FitProblem& cost,
              FitResult& result) {
   const Hypothesis start = result.hypothesis;

@@ -1,5 +1,6 @@
 #pragma once
-/// Products of sensitivities and errors over the fitted records: all that a least-squares step needs of them.
+/// Products of sensitivities and errors over the fitted records: all that a least-squares step
+/// needs of them.
 #include <Eigen/Dense>
 #include <vector>
 
@@ -7,7 +8,8 @@
 
 namespace ambrig {
 
-/// The fitted records, or those of them that the options name: unseen ones are simulated at the end.
+/// The fitted records, or those of them that the options name: unseen ones are simulated at the
+/// end.
 RecordSubset FittedRecords(const CaseModel& model, const FitOptions& options);
 
 /// [J r]ᵀ[J r] over the rows of the fit records looked at.

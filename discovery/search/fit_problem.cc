@@ -12,14 +12,16 @@ namespace ambrig {
 
 namespace {
 
-// Steps of the differences. A prediction jumps by some hundredths of the floor where a switching edge
-// passes a sample: a small step would divide that by little. Frequencies are known to a fraction of 1/duration.
+// Steps of the differences. A prediction jumps by some hundredths of the floor where a switching
+// edge passes a sample: a small step would divide that by little. Frequencies are known to a
+// fraction of 1/duration.
 constexpr double kRigStep = 1;            // of a rig parameter's sd
 constexpr double kEffectStep = 0.1;       // of a parameter's natural step
 constexpr double kFrequencyStep = 0.01;   // of the same, of effects that have a frequency
 constexpr double kSensitivitiesHold = 1;  // sd of a rig parameter
-// Part of the squared change of the errors that the sensitivities did not tell, beside the jumps of a prediction
-// (squared, a row): above it they are taken anew, below it corrected by the step itself.
+// Part of the squared change of the errors that the sensitivities did not tell, beside the jumps of
+// a prediction (squared, a row): above it they are taken anew, below it corrected by the step
+// itself.
 constexpr double kUntold = 0.25;
 constexpr double kJumps = 0.005;
 

@@ -16,12 +16,13 @@ class FitProblem {
 
   /// Weight of a residual when the model leaves `ratio` times the noise.
   void SetMisfitWeight(double ratio);
-  /// What 2 log likelihood of the rows looked at rises by from one ratio to a smaller one, at the weight set.
+  /// What 2 log likelihood of the rows looked at rises by from one ratio to a smaller one, at the
+  /// weight set.
   double MisfitBetween(double before, double after) const;
   /// Sensitivities of the rig parameters are taken again.
   void Refresh();
-  /// Whether a rig parameter of `h` lies beyond the neighbourhood of the point where the sensitivities
-  /// of the rig parameters were taken.
+  /// Whether a rig parameter of `h` lies beyond the neighbourhood of the point where the
+  /// sensitivities of the rig parameters were taken.
   bool OutsideOfSensitivities(const Hypothesis& h) const;
 
   Hypothesis At(const double* x) const;
@@ -39,11 +40,12 @@ class FitProblem {
   /// Columns of all parameters on the records looked at; those of the rig are computed once a pass,
   /// those of effects here.
   Eigen::MatrixXd FitJacobian(const Hypothesis& h) const;
-  /// The same on all records: the rig's where the last pass took them (in memory for what it looked at).
+  /// The same on all records: the rig's where the last pass took them (in memory for what it looked
+  /// at).
   Eigen::MatrixXd FullJacobian(const Hypothesis& h) const;
 
-  /// What the records looked at tell of all parameters, by their sensitivities on all rows: a row counts as the
-  /// numbers that it is worth, where that is known.
+  /// What the records looked at tell of all parameters, by their sensitivities on all rows: a row
+  /// counts as the numbers that it is worth, where that is known.
   Eigen::MatrixXd Information(const Eigen::MatrixXd& jacobian) const;
 
   double weight() const { return weight_; }
@@ -51,16 +53,17 @@ class FitProblem {
   const RecordSubset& look() const { return look_; }
 
  private:
-  /// Broyden's rank-one correction of the sensitivities by the step from where they were last used: they then
-  /// tell the change of the residual to `r` exactly. Besides saving simulations it takes away what the jumps of
-  /// the predictions add to small differences, which makes steps too small. false: they told too little of the
-  /// change to go on with. Source: Nocedal and Wright, "Numerical Optimization", 2nd ed., 11.1.
+  /// Broyden's rank-one correction of the sensitivities by the step from where they were last used:
+  /// they then tell the change of the residual to `r` exactly. Besides saving simulations it takes
+  /// away what the jumps of the predictions add to small differences, which makes steps too small.
+  /// false: they told too little of the change to go on with. Source: Nocedal and Wright,
+  /// "Numerical Optimization", 2nd ed., 11.1.
   bool CorrectBySecant(const double* x, const std::vector<double>& r) const;
   double BoundOf(std::size_t k, double value) const;
-  /// A parameter at a bound which the slope of the cost pushes against is held there: its column is zero. Ceres
-  /// projects steps into the bounds only after it has computed them, and the other parameters would go with one
-  /// that cannot move. Source: D. P. Bertsekas, SIAM J. Control Optim. 20 (1982), projected Newton.
-  /// `residuals`: num_residuals() values, `jacobian`: as many rows.
+  /// A parameter at a bound which the slope of the cost pushes against is held there: its column is
+  /// zero. Ceres projects steps into the bounds only after it has computed them, and the other
+  /// parameters would go with one that cannot move. Source: D. P. Bertsekas, SIAM J. Control Optim.
+  /// 20 (1982), projected Newton. `residuals`: num_residuals() values, `jacobian`: as many rows.
   void HoldAtBounds(
       const double* x, const double* residuals,
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& jacobian)

@@ -144,7 +144,8 @@ std::array<double, 2> NoiseLines(const CaseModel& model, std::size_t record,
   return noise;
 }
 
-/// Forces, readings and the model's answer to the forces around one line in one direction, bearing by bearing.
+/// Forces, readings and the model's answer to the forces around one line in one direction, bearing
+/// by bearing.
 struct LineOfRecord {
   std::array<FreeResponse::Neighbours, 2> force, read, model;
 };
@@ -173,7 +174,8 @@ LineOfRecord LineOf(const RecordLines& lines, std::size_t k,
   return out;
 }
 
-/// Appends line k of a measured record in one direction, less what the model's own record shows there.
+/// Appends line k of a measured record in one direction, less what the model's own record shows
+/// there.
 void AddLine(const RecordLines& measured, const RecordLines* own, std::size_t k,
              const std::array<Eigen::Matrix4cd, 3>& shaft, const std::array<double, 2>& noise,
              FreeResponse& out) {

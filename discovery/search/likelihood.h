@@ -32,10 +32,11 @@ double Score(const CaseModel& model, double ratio_fit, double ratio_validate,
 /// Of a fit, with a price per kind of effect.
 double Score(const CaseModel& model, const FitResult& fit, double effective_sample_size);
 
-/// Probabilities of laws that exclude each other, from their scores and the shares of the error above
-/// the noise that they explain (0 to 1), best score first. Where the best leaves a part 1 - s, no law
-/// of the list is exact, and the same law with other details would explain s ± 0.35 (1 - s): laws
-/// whose shares differ by no more than that are not told apart, whatever their likelihoods say.
+/// Probabilities of laws that exclude each other, from their scores and the shares of the error
+/// above the noise that they explain (0 to 1), best score first. Where the best leaves a part 1
+/// - s, no law of the list is exact, and the same law with other details would explain s ± 0.35
+/// (1 - s): laws whose shares differ by no more than that are not told apart, whatever their
+/// likelihoods say.
 std::vector<double> Probabilities(const std::vector<double>& scores,
                                   const std::vector<double>& shares);
 

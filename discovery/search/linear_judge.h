@@ -31,9 +31,9 @@ class LinearJudge {
               double effective_sample_size);
 
   Candidate Single(const SignatureBank::Entry& entry) const;
-  /// Share of the squared error above the noise that an entry's linear step takes off the readings and
-  /// set-points of free rotors and off records that are not over time (0 to 1), of those that the bank
-  /// looks at; 0 where these hold less than half of it, 1 where there is none.
+  /// Share of the squared error above the noise that an entry's linear step takes off the readings
+  /// and set-points of free rotors and off records that are not over time (0 to 1), of those that
+  /// the bank looks at; 0 where these hold less than half of it, 1 where there is none.
   double MotionShare(const SignatureBank::Entry& entry) const;
   /// The amount of one signature that would be 3 sd of its own beside the rig parameters.
   double LeastVisible(const SignatureBank::Entry& entry, Eigen::Index column) const;

@@ -4,9 +4,10 @@
 
 namespace ambrig {
 
-/// `now`, whose sensitivities must be there, with the residual (over the floor, the model's nuisances
-/// taken off) and the ratios that the maximum-a-posteriori step would leave if the model were linear;
-/// hypothesis and predictions are those of `now`. `effective_sample_size` as in FitOptions.
+/// `now`, whose sensitivities must be there, with the residual (over the floor, the model's
+/// nuisances taken off) and the ratios that the maximum-a-posteriori step would leave if the model
+/// were linear; hypothesis and predictions are those of `now`. `effective_sample_size` as in
+/// FitOptions.
 FitResult LinearlyRefitted(const CaseModel& model, const FitResult& now,
                            double effective_sample_size);
 

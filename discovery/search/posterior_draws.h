@@ -6,8 +6,9 @@
 
 namespace ambrig {
 
-/// `count` draws about `fit`, which has its sensitivities: normal, with the covariance of its linearised posterior
-/// (likelihood.h), within the bounds of the parameters. The same draws for the same fit.
+/// `count` draws about `fit`, which has its sensitivities: normal, with the covariance of its
+/// linearised posterior (likelihood.h), within the bounds of the parameters. The same draws for the
+/// same fit.
 std::vector<Hypothesis> PosteriorDraws(const CaseModel& model, const FitResult& fit,
                                        double effective_sample_size, int count);
 

@@ -45,7 +45,8 @@ constexpr double kSoughtDamping = 0.05;
 constexpr double kSoughtSpacing = 1.1;  // of neighbouring frequencies, about its width
 // of its usual top: large gains shift the loop's resonance, a small probe misses that
 constexpr double kSoughtGain = 0.4;
-// amounts for which the signature of a resonance is believed, and of the weakest probe of what vanishes at infinity
+// amounts for which the signature of a resonance is believed, and of the weakest probe of what
+// vanishes at infinity
 constexpr double kLeastAmount = 0.01, kMostOfResonance = 30;
 
 /// It answers to its gains squared: both signs of their ratio, the size to be found.
@@ -90,9 +91,10 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
 }
 
 /// What shapes a law over decades is tried at the ends of its usual range too: laminations thin and
-/// thick, a capacitance that smooths and one that does not. A shape that may be left out is tried without: iron so
-/// thick that its thickness does not show, fringing flux that does not pull. A fit of it has no slope there, and with
-/// it the signature may look like a rig parameter's (fringing that pulls: a larger pole area).
+/// thick, a capacitance that smooths and one that does not. A shape that may be left out is tried
+/// without: iron so thick that its thickness does not show, fringing flux that does not pull. A fit
+/// of it has no slope there, and with it the signature may look like a rig parameter's (fringing
+/// that pulls: a larger pole area).
 std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle,
                                     const std::vector<std::size_t>& shape, bool both_ends) {
   std::vector<EffectInstance> forms = {middle};
@@ -113,8 +115,8 @@ std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInst
   return forms;
 }
 
-/// The rows of an effect by what a probe does with them, and the effect at its null with its shape at
-/// the middle of the usual range.
+/// The rows of an effect by what a probe does with them, and the effect at its null with its shape
+/// at the middle of the usual range.
 struct ProbePlan {
   EffectInstance null;
   std::vector<std::size_t> finite, infinite, shape;  // switches by their null; what shapes the law

@@ -13,7 +13,8 @@ struct ProbeGroup {
   std::vector<EffectInstance> probes;
   std::vector<std::size_t> rows;  // linear: the table row that each probe moved
   bool linear = true;
-  // not linear: rows that go with a power of the amount, and the amounts for which the signature is believed
+  // not linear: rows that go with a power of the amount, and the amounts for which the signature is
+  // believed
   std::vector<std::pair<std::size_t, double>> scaling;
   double least = 0.5, most = 2;
   bool narrow = false;  // a resonance: off its frequency the signature tells little
@@ -22,8 +23,8 @@ struct ProbeGroup {
 /// Whether the effect is one of a frequency and a damping.
 bool IsResonance(const EffectDescription& d);
 
-/// Whether a parameter that does not switch its effect may also be left out: its null lies below its usual
-/// range and is possible (laminations so thick that their thickness does not show).
+/// Whether a parameter that does not switch its effect may also be left out: its null lies below
+/// its usual range and is possible (laminations so thick that their thickness does not show).
 bool IsOptionalShape(const EffectParameter& p);
 
 /// Frequencies are tried where the error stands out (`peaks`) and over their usual range.

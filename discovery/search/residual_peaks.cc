@@ -16,8 +16,9 @@ namespace ambrig {
 namespace {
 
 constexpr std::size_t kCoherentPeaks = 3, kSpectrumPeaks = 4, kLinesTried = 6;
-// Least shares of the squared error above the noise that the lines of a tone hold: of all records of a free rotor, or
-// of one reading in all of them. An error below the least excess, a share of the rows, counts as that.
+// Least shares of the squared error above the noise that the lines of a tone hold: of all records
+// of a free rotor, or of one reading in all of them. An error below the least excess, a share of
+// the rows, counts as that.
 constexpr double kOfAll = 0.05, kOfReading = 0.2, kLeastExcess = 0.05;
 
 bool IsReading(const CaseModel& model, const Target& t) {
@@ -59,7 +60,8 @@ Sums SumsAt(const CaseModel& model, const std::vector<double>& residual, const T
   return out;
 }
 
-/// Power of a plane's readings by frequency, the records added with their phases. `sums`: of each target.
+/// Power of a plane's readings by frequency, the records added with their phases. `sums`: of each
+/// target.
 std::vector<double> CoherentPower(const CaseModel& model, const std::vector<Sums>& sums,
                                   const std::string& plane, std::size_t frequencies) {
   std::map<std::string, Sums> channels;
@@ -77,8 +79,8 @@ std::vector<double> CoherentPower(const CaseModel& model, const std::vector<Sums
   return power;
 }
 
-/// Squared error above the noise in some targets, and what the lines of each tone hold of it at most (any phase in
-/// every target).
+/// Squared error above the noise in some targets, and what the lines of each tone hold of it at
+/// most (any phase in every target).
 struct LineShares {
   double excess = 0, rows = 0;
   std::vector<double> held;
@@ -106,7 +108,8 @@ std::vector<double> LinesIn(const CaseModel& model, const std::vector<double>& r
   return held;
 }
 
-/// Whether tones of these frequencies may be in the records. Readings of a clamped rotor show a hum as well.
+/// Whether tones of these frequencies may be in the records. Readings of a clamped rotor show a hum
+/// as well.
 std::vector<char> MayBeTones(const CaseModel& model, const std::vector<double>& residual,
                              const std::vector<double>& f) {
   const std::vector<Target>& targets = model.targets();
@@ -135,7 +138,8 @@ std::vector<char> MayBeTones(const CaseModel& model, const std::vector<double>& 
   return out;
 }
 
-/// Those of the strongest lines of every plane, and of the mains, that tones of the records may have.
+/// Those of the strongest lines of every plane, and of the mains, that tones of the records may
+/// have.
 std::map<std::string, std::vector<double>> Tones(
     const CaseModel& model, const std::vector<double>& residual,
     const std::map<std::string, std::vector<double>>& strongest) {
@@ -153,8 +157,9 @@ std::map<std::string, std::vector<double>> Tones(
   return tones;
 }
 
-/// Frequencies at which a tone of one phase in all records is looked for: a grid where most of them are, which stands
-/// as close as the lines of records of 2 s are wide, and round the strongest lines that it does not reach.
+/// Frequencies at which a tone of one phase in all records is looked for: a grid where most of them
+/// are, which stands as close as the lines of records of 2 s are wide, and round the strongest
+/// lines that it does not reach.
 std::vector<double> TonesLookedAt(const CaseModel& model, const std::vector<double>& residual) {
   constexpr double kGridBegins = 8, kGridEnds = 320, kStep = 0.4, kAllReached = 2;  // [Hz], [s]
   constexpr int kBeside = 6;  // on either side of a line, over its width
@@ -172,7 +177,8 @@ std::vector<double> TonesLookedAt(const CaseModel& model, const std::vector<doub
   return f;
 }
 
-/// Frequencies of the points of responses with the largest errors, which a resonance may be narrower than the lines of.
+/// Frequencies of the points of responses with the largest errors, which a resonance may be
+/// narrower than the lines of.
 std::vector<double> PeaksOfResponses(const CaseModel& model, const std::vector<double>& residual) {
   constexpr double kSeen = 9;  // squared error of a response's point, real and imaginary part
   constexpr std::size_t kPoints = 4;

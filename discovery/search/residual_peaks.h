@@ -13,8 +13,8 @@ struct ResidualPeaks {
   /// By plane ("rig": all of them), of the readings, same phase in every record. [Hz], strongest
   /// first.
   std::map<std::string, std::vector<double>> coherent;
-  /// The same and the frequencies of the mains, without those whose lines (with their third and fifth harmonics) hold so
-  /// little of the error that no tone there could explain much.
+  /// The same and the frequencies of the mains, without those whose lines (with their third and
+  /// fifth harmonics) hold so little of the error that no tone there could explain much.
   std::map<std::string, std::vector<double>> tones;
   std::vector<double> spectrum;  // any phase [Hz], strongest first
 

@@ -16,17 +16,19 @@ constexpr double kScanFrom = 30, kScanTo = 2000, kScanRatio = 1.02;  // [Hz], of
 constexpr std::array kScannedDamping = {0.01, 0.04};
 constexpr std::array kGyros = {0.0, -0.2, 0.2};  // from which an estimate is refined
 constexpr double kLeastShare = 0.02;
-// Of what a resonance explains, by the forces: the ends of the records explain any line of another origin.
+// Of what a resonance explains, by the forces: the ends of the records explain any line of another
+// origin.
 constexpr double kLeastForced = 0.05;
 // What is sharper than this part of a line is told from a line of another origin by its ends only.
 constexpr double kSharpest = 0.1;
 
-// Columns of the equations of one sensor in one record and direction, real above imaginary parts: those that no mode
-// changes (the error, gains and lags of both forces, ends of a free mass), and those of a mode (answers to both forces, ends).
+// Columns of the equations of one sensor in one record and direction, real above imaginary parts:
+// those that no mode changes (the error, gains and lags of both forces, ends of a free mass), and
+// those of a mode (answers to both forces, ends).
 constexpr Eigen::Index kForceColumns = 4, kEndColumns = 4, kAnswerColumns = 2;
 
-/// The products `all` of columns, less what the last `count` columns explain of the others, which alone stay. These may depend
-/// on each other.
+/// The products `all` of columns, less what the last `count` columns explain of the others, which
+/// alone stay. These may depend on each other.
 Eigen::MatrixXd WithoutLast(const Eigen::MatrixXd& all, Eigen::Index count) {
   const Eigen::Index kept = all.rows() - count;
   const Eigen::VectorXd one_over =
@@ -153,8 +155,9 @@ class ResonanceScan {
     return m;
   }
 
-  /// Of each sensor: sums over all records and directions of the products of a mode's answers (none with nullptr) and the
-  /// error, less what the ends of each record and, in all alike, gains and lags of the forces explain.
+  /// Of each sensor: sums over all records and directions of the products of a mode's answers (none
+  /// with nullptr) and the error, less what the ends of each record and, in all alike, gains and
+  /// lags of the forces explain.
   std::array<Eigen::MatrixXd, 2> Products(const ResonanceEstimate* mode) const {
     const Eigen::Index answers = mode ? kAnswerColumns : 0, kept = answers + 1 + kForceColumns,
                        ends = (mode ? 2 : 1) * kEndColumns;
@@ -202,8 +205,9 @@ bool OneOfTheScan(const ResonanceEstimate& a, const ResonanceEstimate& b) {
   return std::abs(std::log(a.frequency / b.frequency)) < std::log(1.12);
 }
 
-/// Refined minima are one where frequency and damping are alike. A base whose frequency differs between x and y has a
-/// sharp minimum beside a broad one, and the broad one describes the machine better; the simulation decides.
+/// Refined minima are one where frequency and damping are alike. A base whose frequency differs
+/// between x and y has a sharp minimum beside a broad one, and the broad one describes the machine
+/// better; the simulation decides.
 bool OneOfTheRefined(const ResonanceEstimate& a, const ResonanceEstimate& b) {
   return std::abs(std::log(a.frequency / b.frequency)) < std::log(1.02) &&
          std::abs(std::log(a.damping / b.damping)) < std::log(2.0);
@@ -225,7 +229,8 @@ std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std:
   return out;
 }
 
-/// To the best of the neighbours in frequency, damping and gyroscopic coupling, in steps that halve.
+/// To the best of the neighbours in frequency, damping and gyroscopic coupling, in steps that
+/// halve.
 ResonanceEstimate RefinedEstimate(const ResonanceScan& scan, ResonanceEstimate best) {
   constexpr int kHalvings = 6, kMoves = 6;
   double frequency = kScanRatio - 1, damping = 0.8, gyro = 0.1;

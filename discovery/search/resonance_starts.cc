@@ -48,8 +48,8 @@ void SetIfThere(EffectInstance& e, const std::string& name, double value) {
     if (e.table[k].name == name) e.values[k] = std::clamp(value, e.table[k].lo, e.table[k].hi);
 }
 
-/// The forms at the estimate's frequency whose gains are tried: directions of two gains, values of what
-/// shapes them.
+/// The forms at the estimate's frequency whose gains are tried: directions of two gains, values of
+/// what shapes them.
 std::vector<EffectInstance> FormsAt(const EffectInstance& null, const ResonanceEstimate& estimate) {
   const EffectDescription& d = EffectNamed(null.name);
   EffectInstance at = null;
@@ -114,8 +114,8 @@ bool AlikeInShape(const EffectInstance& a, const EffectInstance& b) {
   return true;
 }
 
-/// A resonance of other frequencies along x and y shows as two: the starts, and those whose second frequency is that of
-/// another estimate.
+/// A resonance of other frequencies along x and y shows as two: the starts, and those whose second
+/// frequency is that of another estimate.
 std::vector<EffectInstance> WithSplits(const std::vector<EffectInstance>& starts,
                                        const std::vector<ResonanceEstimate>& estimates) {
   std::vector<EffectInstance> out = starts;

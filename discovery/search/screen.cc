@@ -59,8 +59,9 @@ bool Same(const EffectInstance& a, const EffectInstance& b) {
   return a.name == b.name && a.target == b.target;
 }
 
-/// The probes of a narrow effect that explain something of what `base` leaves; all where that cannot be
-/// tried. None where the records of a free rotor show no resonance that this effect could be.
+/// The probes of a narrow effect that explain something of what `base` leaves; all where that
+/// cannot be tried. None where the records of a free rotor show no resonance that this effect could
+/// be.
 std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
                                 const std::vector<ProbeGroup>& probes, const SeenResonances& seen,
                                 double effective_sample_size) {
@@ -123,8 +124,8 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
   return groups;
 }
 
-/// Share of the squared error above the noise that stands in the rotor's motion (and in records that are not
-/// over time).
+/// Share of the squared error above the noise that stands in the rotor's motion (and in records
+/// that are not over time).
 double MotionPart(const CaseModel& model, const FitResult& base) {
   double all = 0, motion = 0;
   for (const Target& t : model.targets()) {
@@ -137,9 +138,10 @@ double MotionPart(const CaseModel& model, const FitResult& base) {
   return all > 0 ? motion / all : 1;
 }
 
-/// Whether the best candidate leaves so much of the rotor's motion that a resonance may be behind it. Beside effects
-/// that were adopted a resonance has to explain most of all that is left: what it makes of the currents
-/// through the loop is some ten times what it makes of the motion, so a thirtieth has to be motion.
+/// Whether the best candidate leaves so much of the rotor's motion that a resonance may be behind
+/// it. Beside effects that were adopted a resonance has to explain most of all that is left: what
+/// it makes of the currents through the loop is some ten times what it makes of the motion, so a
+/// thirtieth has to be motion.
 bool MotionIsOpen(const CaseModel& model, const FitResult& base, SignatureBank& bank,
                   const std::vector<Candidate>& ranked, double effective_sample_size) {
   constexpr double kExplained = 0.9;  // of the squared error above the noise; a linear step errs
@@ -216,7 +218,8 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                 MotionIsOpen(model, base, bank, out, options.effective_sample_size)))
     screen(ScreenedKind::kResonances, 0.4, 0.7);
   if (options.coarse || HoldsCoils(bank)) return out;
-  // Signatures that are there come from an earlier look, after which only what stands out in a channel is worth so many.
+  // Signatures that are there come from an earlier look, after which only what stands out in a
+  // channel is worth so many.
   if (again && WorstRatio(model, base.residual, Which::kFit) < kStandsOut) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {

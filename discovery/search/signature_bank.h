@@ -13,8 +13,8 @@
 
 namespace ambrig {
 
-/// Products over the rows of the fit records and over those of the unseen ones; the part of either that points of
-/// records which are not over time have in them (empty without such records).
+/// Products over the rows of the fit records and over those of the unseen ones; the part of either
+/// that points of records which are not over time have in them (empty without such records).
 struct Gram {
   Eigen::MatrixXd fit, validate;
   Eigen::MatrixXd fit_points, validate_points;
@@ -30,15 +30,16 @@ class SignatureBank {
     Eigen::Index count() const { return static_cast<Eigen::Index>(group.probes.size()); }
   };
 
-  /// Simulates the groups' probes on top of `base` and adds their signatures. With a bank limited to
-  /// some records the others' rows are zero.
+  /// Simulates the groups' probes on top of `base` and adds their signatures. With a bank limited
+  /// to some records the others' rows are zero.
   void Simulate(const CaseModel& model, const FitResult& base,
                 const std::vector<ProbeGroup>& groups,
                 const std::function<void(double, const std::string&)>& progress);
-  /// Signatures of the records of `look` only, until more are asked for: what the bank lacks of them
-  /// is then simulated.
+  /// Signatures of the records of `look` only, until more are asked for: what the bank lacks of
+  /// them is then simulated.
   void LookAt(const CaseModel& model, const RecordSubset& look);
-  /// Floors have changed from those of `before` (the same targets), and rows may have stopped to count.
+  /// Floors have changed from those of `before` (the same targets), and rows may have stopped to
+  /// count.
   void Rescale(const CaseModel& model, const std::vector<Target>& before);
   /// The model has nuisances since the signatures were taken: what these explain is taken off.
   void TakeOffNuisances(const CaseModel& model);
@@ -62,8 +63,8 @@ class SignatureBank {
   void Fill(const CaseModel& model, std::size_t begin, std::size_t end, const RecordSubset& look);
   /// The columns are others now.
   void ForgetProducts();
-  /// Probes with which the rotor is lost, taken again with less of what they move (`rows`: of each probe's table, -1:
-  /// it stays). A usual size may be far too large for a small rig.
+  /// Probes with which the rotor is lost, taken again with less of what they move (`rows`: of each
+  /// probe's table, -1: it stays). A usual size may be far too large for a small rig.
   void TakeSmaller(const CaseModel& model, const Hypothesis& base, const std::vector<int>& rows,
                    std::vector<EffectInstance>& probes,
                    std::vector<std::vector<float>>& signatures) const;

@@ -1,6 +1,6 @@
 #pragma once
-/// How well the sizes of an effect are known when the shape of its law (a frequency, a time constant) is
-/// held: a slow rise tells size over time constant well and neither alone.
+/// How well the sizes of an effect are known when the shape of its law (a frequency, a time
+/// constant) is held: a slow rise tells size over time constant well and neither alone.
 #include <Eigen/Dense>
 #include <vector>
 

@@ -76,8 +76,8 @@ std::vector<SimulatedStart> MoreSizesOfResonance(const EffectInstance& e) {
   return out;
 }
 
-/// Sizes over the usual range of an effect of contact: a rebound that comes a little later changes all
-/// that follows, so no size tells what its neighbour would explain.
+/// Sizes over the usual range of an effect of contact: a rebound that comes a little later changes
+/// all that follows, so no size tells what its neighbour would explain.
 std::vector<SimulatedStart> SizesOfContact(const EffectInstance& e) {
   constexpr int kSizes = 14;
   std::vector<SimulatedStart> out;
@@ -94,8 +94,9 @@ std::vector<SimulatedStart> SizesOfContact(const EffectInstance& e) {
   return out;
 }
 
-/// Whether a grid of frequencies, none of which is as near, has nothing to add to the starts that were estimated from the
-/// records: where one of them explains much, and beside adopted effects, which hide no mode from an estimate.
+/// Whether a grid of frequencies, none of which is as near, has nothing to add to the starts that
+/// were estimated from the records: where one of them explains much, and beside adopted effects,
+/// which hide no mode from an estimate.
 bool Suffice(const StartSearch& search, const std::vector<SimulatedStart>& estimated) {
   constexpr double kMuch = 0.2;  // of the error above the noise
   if (search.beside_others() && !estimated.empty()) return true;
@@ -104,8 +105,8 @@ bool Suffice(const StartSearch& search, const std::vector<SimulatedStart>& estim
   });
 }
 
-/// Whether neither the least nor the largest size of an effect of contact changes anything: nothing touches in the
-/// records that are looked at.
+/// Whether neither the least nor the largest size of an effect of contact changes anything: nothing
+/// touches in the records that are looked at.
 bool ChangeNothing(const StartSearch& search, const std::vector<SimulatedStart>& sizes) {
   if (sizes.empty()) return true;
   std::vector<SimulatedStart> ends = {sizes.front(), sizes.back()};
@@ -113,7 +114,8 @@ bool ChangeNothing(const StartSearch& search, const std::vector<SimulatedStart>&
   return ends[0].score == search.here() && ends[1].score == search.here();
 }
 
-/// The size that responses ask for: these tell of much smaller resonances than records over time do.
+/// The size that responses ask for: these tell of much smaller resonances than records over time
+/// do.
 void AddAskedSize(const StartSearch& search, std::vector<SimulatedStart>& sizes) {
   constexpr double kSmaller = 0.5;  // of the least size
   const SimulatedStart& least = sizes.back();

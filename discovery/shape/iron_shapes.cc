@@ -126,7 +126,8 @@ Shape EddyShape(const EffectInstance& named, const RigParameters& rig) {
   s.step = Eigen::VectorXd(n);
   s.step(0) = 0.05 * gap;
   s.knots.push_back(std::nan(""));
-  // the half order has sizes that grow with the root of the frequency: the same number of steps each
+  // the half order has sizes that grow with the root of the frequency: the same number of steps
+  // each
   for (int k = 0; k < kRelaxations; ++k) {
     s.step(k + 1) = 0.3 * std::sqrt(RelaxationFrequency(k) / cutoff);
     s.knots.push_back(RelaxationFrequency(k));

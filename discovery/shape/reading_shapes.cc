@@ -1,5 +1,6 @@
-/// Free shape of a position sensor's gain: its reading over the displacement along its axis, as a `formula` of ramps in
-/// the rig file. Piecewise linear through the centre, with a slope per stretch.
+/// Free shape of a position sensor's gain: its reading over the displacement along its axis, as a
+/// `formula` of ramps in the rig file. Piecewise linear through the centre, with a slope per
+/// stretch.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,8 +43,8 @@ std::string PartText(const Stretch& s, double d, const std::string& u) {
                        : fmt::format("{}({},{:.9g})", part_of, beyond, s.positive ? d : -d);
 }
 
-// Of the law's gain, either way: sensors of bearings bend by a few percent, and stretches that few samples visit stay near
-// the others.
+// Of the law's gain, either way: sensors of bearings bend by a few percent, and stretches that few
+// samples visit stay near the others.
 constexpr double kMostBend = 1.1;
 
 EffectParameter GainOfStretch(int k, double gain) {

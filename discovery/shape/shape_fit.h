@@ -12,8 +12,8 @@ namespace ambrig {
 struct ShapeFit {
   FitResult fit;              // the hypothesis with the shape as its last effect, without sd
   std::vector<double> sizes;  // of the shape, own units
-  // covariances, sizes x sizes, products of the sizes' own units: what the records and the penalty leave, and what
-  // the penalty alone does
+  // covariances, sizes x sizes, products of the sizes' own units: what the records and the penalty
+  // leave, and what the penalty alone does
   Eigen::MatrixXd posterior, prior;
   std::vector<double>
       influence;         // of each size [-]: information of the records times its prior variance
@@ -28,7 +28,8 @@ struct ShapeFit {
 struct ShapeFitOptions {
   double effective_sample_size = 1;  // independent numbers among the residuals
   std::function<void(double, const std::string&)> progress = {};
-  // of the rig parameters and effects of the base, kept throughout; null: taken at the start and once more
+  // of the rig parameters and effects of the base, kept throughout; null: taken at the start and
+  // once more
   const Eigen::MatrixXd* base_jacobian = nullptr;
   bool describe = true;  // posterior, prior and influence of the sizes
 };

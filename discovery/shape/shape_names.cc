@@ -80,8 +80,8 @@ class ShapeJudge {
     return std::max(fit.ratio_fit, fit.ratio_validate) > kLawIsExact;
   }
 
-  /// Whether the name of iron is plain enough, and contested by other iron; of the first effect also where its law is
-  /// not exact: what that leaves may be the law's own.
+  /// Whether the name of iron is plain enough, and contested by other iron; of the first effect
+  /// also where its law is not exact: what that leaves may be the law's own.
   bool IronIsAsked(const RankedEffect& best) const {
     for (const EffectInstance& e : now_.hypothesis.rig.effects)
       if (IsIron(e) && e.target == best.effect.target) return false;  // two laws of one iron

@@ -1,5 +1,5 @@
-/// Free shape of a force that turns with the shaft: a Fourier series over the shaft's angle, every order forward and
-/// backward, as a `formula` of the rig file.
+/// Free shape of a force that turns with the shaft: a Fourier series over the shaft's angle, every
+/// order forward and backward, as a `formula` of the rig file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -42,7 +42,8 @@ EffectParameter OrderAmplitude(const TurningOrder& o, const char* part, double s
   return p;
 }
 
-/// Sums over all orders of (c + i s) exp(+-i order theta): real part along x, imaginary part along y.
+/// Sums over all orders of (c + i s) exp(+-i order theta): real part along x, imaginary part along
+/// y.
 std::pair<std::string, std::string> TurningFormulas() {
   std::string x, y;
   for (const TurningOrder& o : TurningOrders()) {

@@ -1,7 +1,7 @@
 #pragma once
-/// What one record says of its rig, and how it differs from what an earlier record of the same experiment
-/// said: each is compared and fitted alone, so that both share the errors of the model that have nothing
-/// to do with time.
+/// What one record says of its rig, and how it differs from what an earlier record of the same
+/// experiment said: each is compared and fitted alone, so that both share the errors of the model
+/// that have nothing to do with time.
 #include <atomic>
 #include <map>
 #include <string>
@@ -29,8 +29,8 @@ struct RecordState {
   std::vector<StateParameter> parameters;
 };
 
-/// Of the only record of `c`. `reference`: the state of the earlier record, whose parameters are what the
-/// fit expects; nullptr: this is the reference. @throws Interrupted
+/// Of the only record of `c`. `reference`: the state of the earlier record, whose parameters are
+/// what the fit expects; nullptr: this is the reference. @throws Interrupted
 RecordState StateOf(const Case& c, const RecordState* reference, const std::atomic<bool>* stop);
 
 /// Something that left the band in which it stays with a probability of 99 % if nothing changed.

@@ -1,6 +1,6 @@
 #pragma once
-/// What stands behind the handle of an instance, in both versions of FMI: the instance, who is told of
-/// errors, and how an exception becomes a status.
+/// What stands behind the handle of an instance, in both versions of FMI: the instance, who is told
+/// of errors, and how an exception becomes a status.
 #include <exception>
 #include <functional>
 #include <memory>

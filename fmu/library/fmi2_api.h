@@ -1,6 +1,6 @@
 #pragma once
-/// Types of FMI 2.0 (Functional Mock-up Interface, standard of 2014, "fmi2FunctionTypes"), as far as
-/// co-simulation needs them.
+/// Types of FMI 2.0 (Functional Mock-up Interface, standard of 2014, "fmi2FunctionTypes"), as far
+/// as co-simulation needs them.
 #include <cstddef>
 
 extern "C" {

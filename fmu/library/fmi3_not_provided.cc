@@ -1,5 +1,5 @@
-/// FMI 3.0: functions that modelDescription.xml says this FMU does not provide. They are there, as the
-/// standard asks, and answer with an error that says why.
+/// FMI 3.0: functions that modelDescription.xml says this FMU does not provide. They are there, as
+/// the standard asks, and answer with an error that says why.
 #include "fmu/library/fmi3_api.h"
 
 using namespace ambrig;  // NOLINT: the functions below belong to the standard

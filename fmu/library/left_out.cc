@@ -1,6 +1,6 @@
-/// What an FMU does without, so that it needs no library beside it: HDF5 and MAT files, zip archives,
-/// formulas of effects, H-infinity synthesis, the Open Dynamics Engine. `ambrig export` refuses a rig
-/// that would come here.
+/// What an FMU does without, so that it needs no library beside it: HDF5 and MAT files, zip
+/// archives, formulas of effects, H-infinity synthesis, the Open Dynamics Engine. `ambrig export`
+/// refuses a rig that would come here.
 #include "control/synthesis/slicot.h"
 #include "core/base/errors.h"
 #include "core/base/zip_file.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// Long work away from the interpreter: it runs in a thread of its own without the interpreter's lock,
-/// while the calling thread answers Ctrl-C and tells the progress.
+/// Long work away from the interpreter: it runs in a thread of its own without the interpreter's
+/// lock, while the calling thread answers Ctrl-C and tells the progress.
 #include <pybind11/pybind11.h>
 
 #include <atomic>
@@ -15,8 +15,9 @@ struct Watch {
 };
 
 /// Calls `work` and waits for it. `progress`: None or a callable (fraction), called in the calling
-/// thread some ten times a second. An exception of `progress`, or Ctrl-C, sets *stop and is raised when the
-/// work has ended. @throws what `work` throws. To be called with the interpreter's lock held.
+/// thread some ten times a second. An exception of `progress`, or Ctrl-C, sets *stop and is raised
+/// when the work has ended. @throws what `work` throws. To be called with the interpreter's lock
+/// held.
 void InBackground(const std::function<void()>& work, Watch& watch,
                   const pybind11::object& progress);
 

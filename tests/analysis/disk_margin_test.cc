@@ -121,8 +121,8 @@ TEST(StructuredSingularValue, TheBoundIsThatOfSlicot) {
 
 // Doyle's spinning body: two integrators coupled by the speed a. Each loop alone has an infinite
 // gain margin
-// and 90 degrees (α = 2); together  S - I/2 = [(s - 1)/2  -a; a  (s - 1)/2]/(s + 1), normal and with equal
-// off-diagonals: no scaling helps, μ² = (1/4 + (ω/2 + a)²)/(1 + ω²) at the worse sign.
+// and 90 degrees (α = 2); together  S - I/2 = [(s - 1)/2  -a; a  (s - 1)/2]/(s + 1), normal and
+// with equal off-diagonals: no scaling helps, μ² = (1/4 + (ω/2 + a)²)/(1 + ω²) at the worse sign.
 TEST(DiskMargin, OfTheSpinningBodyInClosedForm) {
   const double a = 10;
   std::vector<double> frequency;

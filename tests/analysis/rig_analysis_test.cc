@@ -114,8 +114,9 @@ TEST(Capacity, OfTheReferenceRig) {
   EXPECT_NEAR(c[0].slew, k * c0 * 29 / (1.95e-3 * cosine), 0.06 * c[0].slew);
 }
 
-// A bridge that drives both ways has its whole voltage to change a current either way; one that does not, only what the resting current
-// drops in the winding: 0.5 A times 1 ohm of 24 V. One file after the other is read: the magnets and currents are the same.
+// A bridge that drives both ways has its whole voltage to change a current either way; one that
+// does not, only what the resting current drops in the winding: 0.5 A times 1 ohm of 24 V. One file
+// after the other is read: the magnets and currents are the same.
 TEST(Capacity, SlewIsThatOfTheDutiesAllowed) {
   const std::string text = ReadText(AMBRIG_SOURCE_DIR "/examples/validation/mbc500.toml");
   const auto slew = [](const std::string& rig) {

@@ -1,4 +1,5 @@
-// The rotor on the springs of its bearings: the whole beam, whatever bending and residual modes its runs keep.
+// The rotor on the springs of its bearings: the whole beam, whatever bending and residual modes its
+// runs keep.
 #include "analysis/rotor_supports.h"
 
 #include <gtest/gtest.h>

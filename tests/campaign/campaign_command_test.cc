@@ -101,7 +101,8 @@ TEST(CampaignCommand, DamagedLinesAreDoneAgain) {
   EXPECT_EQ(f.Read("out/table.csv"), table);
 }
 
-// A row of another version of the program, whole and with its check sum: file and line say where it stands.
+// A row of another version of the program, whole and with its check sum: file and line say where it
+// stands.
 TEST(CampaignCommand, ARowOfOtherCellsIsRefusedWithItsLine) {
   const CampaignFolder f;
   ASSERT_EQ(f.Ambrig("campaign c.toml -o out --shard 1/16 --no-report").exit, 0);
@@ -205,8 +206,9 @@ TEST(CampaignCommand, SmallSurvivalCampaign) {
   EXPECT_NE(f.Read("out/report.html").find("Survival: open, 1500 rpm"), std::string::npos);
 }
 
-// Half of the turns of A7 go while it carries next to no current. Its command (0.12 to 0.39 A, limit 0.3 A) crosses the
-// limit of idle coils every few milliseconds; it is probed again all the same.
+// Half of the turns of A7 go while it carries next to no current. Its command (0.12 to 0.39 A,
+// limit 0.3 A) crosses the limit of idle coils every few milliseconds; it is probed again all the
+// same.
 TEST(CampaignCommand, AnIdleCoilWhoseCommandIsNearTheLimitIsProbedAgain) {
   const CampaignFolder f;
   const Outcome o = f.Ambrig("run --from-campaign " + std::string(AMBRIG_SOURCE_DIR) +

@@ -127,8 +127,8 @@ TEST_F(CampaignFaults, TheoryOfTheSets) {
   EXPECT_THROW(plan.Make(3), std::logic_error);
 }
 
-// A thrust bearing has four windings, two on each side. One that opens leaves its side the other, at twice the current; a side
-// without any pulls one way only.
+// A thrust bearing has four windings, two on each side. One that opens leaves its side the other,
+// at twice the current; a side without any pulls one way only.
 TEST_F(CampaignFaults, TheThrustBearingHasSetsOfItsFourWindings) {
   EXPECT_EQ(Read("sets = \"single\"\nbearings = [\"Z\"]\n").sets.size(), 4u);
   EXPECT_EQ(Read("sets = \"double\"\nbearings = [\"Z\"]\n").sets.size(), 6u);

@@ -1,4 +1,5 @@
-// A campaign of very many rows: what merge takes of the machine grows with the text of the rows, and by little beside it.
+// A campaign of very many rows: what merge takes of the machine grows with the text of the rows,
+// and by little beside it.
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/resource.h>

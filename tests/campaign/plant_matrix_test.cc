@@ -103,7 +103,8 @@ TEST(PlantMatrix, HealthyPlantsCountOnceWithTheBoundOfTheirShare) {
   EXPECT_TRUE(PlantMatrix({}).empty());
 }
 
-// Seven opens in 0.1 to 0.4 ms and one that is missed: 3 of 8 within 0.25 ms, 7 of 8 in time at all. Shares are rounded down.
+// Seven opens in 0.1 to 0.4 ms and one that is missed: 3 of 8 within 0.25 ms, 7 of 8 in time at
+// all. Shares are rounded down.
 TEST(PlantMatrix, SharesWithinTheWantedTimes) {
   std::vector<Seen> rows;
   for (const char* delay : {"1e-4", "2e-4", "2.5e-4", "2.6e-4", "3e-4", "4e-4", "4e-4", ""})
@@ -120,8 +121,8 @@ TEST(PlantMatrix, SharesWithinTheWantedTimes) {
       << text;
 }
 
-// Of two coils that fail together both must be found: where one is missed the other's delay is no finding, and a
-// table for each set says which pair it was.
+// Of two coils that fail together both must be found: where one is missed the other's delay is no
+// finding, and a table for each set says which pair it was.
 TEST(PlantMatrix, OfTwoCoilsBothMustBeFound) {
   std::vector<Seen> rows{{"none", "none", "1", "yes", "open", "2", "1e-4", "0", "up", "up"},
                          {"none", "none", "1", "yes", "open", "1", "2e-3", "0", "up", "up"},

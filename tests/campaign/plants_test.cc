@@ -114,8 +114,8 @@ double TrueValue(const RigParameters& rig, const std::string& path) {
   return *ParameterAt(rig, path);
 }
 
-// What differs from coil to coil is the machine's: another one in each plant, the same before and after it was
-// commissioned.
+// What differs from coil to coil is the machine's: another one in each plant, the same before and
+// after it was commissioned.
 TEST(Plants, EachIsAnotherUnit) {
   const CampaignFolder f;
   const Campaign c = Read(f, Reality("effects = [\"fringing\"]\nsizes = [\"low\", \"high\"]\n"
@@ -177,7 +177,8 @@ TEST(Plants, CommissioningDoesNotSeeWhatComesAfterIt) {
   EXPECT_EQ(ReadBytes(a.rig.detection.commissioning), ReadBytes(b.rig.detection.commissioning));
 }
 
-// Effects of a coil's circuit act on the bearings that are named, those of an axis on an axis of theirs.
+// Effects of a coil's circuit act on the bearings that are named, those of an axis on an axis of
+// theirs.
 TEST(Plants, EffectsActOnTheBearingsThatAreNamed) {
   const CampaignFolder f;
   const Campaign c = Read(f, Reality("bearings = [\"Z\"]\neffects = [\"eddy-currents\", "

@@ -57,7 +57,8 @@ TEST(Shards, KeepTheRunsOfABlockTogether) {
     EXPECT_EQ(of[run], static_cast<int>(run / 4 % 3)) << run;
 }
 
-// Two scenarios and ten machines, each with and without having been commissioned: four runs a machine.
+// Two scenarios and ten machines, each with and without having been commissioned: four runs a
+// machine.
 TEST(RunsTogether, AreThoseOfAMachineWhereThereAreEnoughForAllWorkers) {
   Campaign c;
   c.scenarios.resize(2);

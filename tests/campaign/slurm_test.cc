@@ -1,5 +1,5 @@
-// --engine slurm against a real, private Slurm with two nodes: the disk is full, then a task, the controller and
-// a node are killed. Skipped where Slurm is not installed (tools/setup.sh --tests).
+// --engine slurm against a real, private Slurm with two nodes: the disk is full, then a task, the
+// controller and a node are killed. Skipped where Slurm is not installed (tools/setup.sh --tests).
 #include <gtest/gtest.h>
 #include <unistd.h>
 

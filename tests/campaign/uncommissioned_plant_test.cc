@@ -1,4 +1,5 @@
-// Whole runs with fault tolerance on plants that are not the detection's model, nearly all of which it has not learnt.
+// Whole runs with fault tolerance on plants that are not the detection's model, nearly all of which
+// it has not learnt.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@ RunResult WithFaultTolerance(const std::string& campaign, std::size_t row,
   return Simulate(p.rig, p.scenario, options);
 }
 
-// Unbalance, magnetic offset and saturation; A3 opens at 70 ms. A8, asked for 0.5 A, was called a false sensor 3 ms later.
+// Unbalance, magnetic offset and saturation; A3 opens at 70 ms. A8, asked for 0.5 A, was called a
+// false sensor 3 ms later.
 TEST(UncommissionedPlant, SensorsOfOtherCoilsAreNotBlamedAfterAnOpenOne) {
   const RunResult result = WithFaultTolerance("reality_small.toml", 1081);
   bool found = false;
@@ -32,8 +34,9 @@ TEST(UncommissionedPlant, SensorsOfOtherCoilsAreNotBlamedAfterAnOpenOne) {
   EXPECT_TRUE(found);
 }
 
-// Healthy mixtures whose iron saturates under load steps, with rotors that swing far: a coil was named with a loss of 43 %
-// of its turns as its c grew beyond 2 within some ten periods. The first of them dropped further for it.
+// Healthy mixtures whose iron saturates under load steps, with rotors that swing far: a coil was
+// named with a loss of 43 % of its turns as its c grew beyond 2 within some ten periods. The first
+// of them dropped further for it.
 TEST(UncommissionedPlant, SaturationIsNoLossOfTurns) {
   for (const std::size_t row : {6945, 5329}) {
     const RunResult result = WithFaultTolerance("reality_healthy.toml", row);
@@ -42,8 +45,9 @@ TEST(UncommissionedPlant, SaturationIsNoLossOfTurns) {
   }
 }
 
-// A healthy mixture with saturating iron in a whirl: its c errs by 0.1 either way. Coil 1 was named with a loss of 3 %, found
-// to have all its turns, then called a false sensor and given up, and the rotor dropped.
+// A healthy mixture with saturating iron in a whirl: its c errs by 0.1 either way. Coil 1 was named
+// with a loss of 3 %, found to have all its turns, then called a false sensor and given up, and the
+// rotor dropped.
 TEST(CommissionedPlant, AfterALossThatWasNoneLessIsBelieved) {
   const RunResult result = WithFaultTolerance("reality_healthy.toml", 17706, true);
   bool restored = false;

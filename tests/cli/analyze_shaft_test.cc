@@ -57,7 +57,8 @@ TEST_F(AnalyzeShaft, WritesEverythingThatItComputes) {
     EXPECT_THAT(page, HasSubstr(heading));
 }
 
-// --campbell is a part of the whole analysis: the same modes and damped critical speeds, nothing else.
+// --campbell is a part of the whole analysis: the same modes and damped critical speeds, nothing
+// else.
 TEST_F(AnalyzeShaft, CampbellAloneIsTheCampbellOfTheWhole) {
   const std::string speeds = "analyze shaft.toml --speed 3000:4000 --max-speed 6000 ";
   const Outcome whole = Ambrig(speeds + "--json whole.json");
@@ -78,8 +79,9 @@ TEST_F(AnalyzeShaft, CampbellAloneIsTheCampbellOfTheWhole) {
   EXPECT_THAT(ReadText(folder_ / "alone.html"), HasSubstr("Damped modes"));
 }
 
-// The critical speed map moves the supports; a bearing between two shafts stays, so that at the supports' own stiffness
-// the map has the critical speeds of the machine, and holds both shafts at every one.
+// The critical speed map moves the supports; a bearing between two shafts stays, so that at the
+// supports' own stiffness the map has the critical speeds of the machine, and holds both shafts at
+// every one.
 TEST_F(AnalyzeShaft, TheMapKeepsWhatJoinsShafts) {
   std::string text = "[rotor]\nkind = \"beam\"\n";
   for (const char* name : {"inner", "outer"})

@@ -1,5 +1,5 @@
-// Commands that print what the program knows: effects, parameters, and what they say is in the sources'
-// tables and nowhere else.
+// Commands that print what the program knows: effects, parameters, and what they say is in the
+// sources' tables and nowhere else.
 #include <gmock/gmock.h>
 
 #include <filesystem>

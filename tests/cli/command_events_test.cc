@@ -1,5 +1,5 @@
-// What a program that starts a command can read of it: its events, where its answer comes from, every sample of a
-// comparison, a rig resolved, what differs between two.
+// What a program that starts a command can read of it: its events, where its answer comes from,
+// every sample of a comparison, a rig resolved, what differs between two.
 #include <gmock/gmock.h>
 
 #include <cmath>

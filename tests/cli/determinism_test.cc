@@ -24,7 +24,8 @@ TEST_F(Determinism, ARecordHasTheSameBytes) {
   }
 }
 
-// Not on what the cache holds of current distributions, nor on the folder, the language or the zone.
+// Not on what the cache holds of current distributions, nor on the folder, the language or the
+// zone.
 TEST_F(Determinism, CacheFolderAndLanguageDoNotMatter) {
   const std::filesystem::path other = folder_ / "a folder";
   std::filesystem::create_directories(other);
@@ -64,8 +65,8 @@ TEST_F(Determinism, AnotherSeedIsAnotherRecord) {
 }
 
 // Another machine's mathematical library may round a sine otherwise (docs/theory/engine.md, "Same
-// bits"): what is promised then is the same events and values within the tolerance of `ambrig diff`.
-// The library of a processor without fused products and sums stands for that machine.
+// bits"): what is promised then is the same events and values within the tolerance of `ambrig
+// diff`. The library of a processor without fused products and sums stands for that machine.
 TEST_F(Determinism, AnotherMathematicalLibraryIsWithinRounding) {
   const std::string run = std::string(AMBRIG_BINARY) + " run " + kLibrary +
                           "coil_a3_opens_1500rpm.toml --quiet --no-report --out ";

@@ -110,7 +110,8 @@ TEST_F(DocsPages, KeysOfCases) {
   EXPECT_GE(count, 5);
 }
 
-// Every port that a scenario may name stands in the page about files, and where results are kept between calls.
+// Every port that a scenario may name stands in the page about files, and where results are kept
+// between calls.
 TEST_F(DocsPages, PortsAndTheCache) {
   const Outcome o =
       Run(ReferenceRigText(), ScenarioText("[[excitation]]\ntarget = \"A.x\"\nport = \"nope\"\n"));

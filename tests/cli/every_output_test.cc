@@ -1,6 +1,6 @@
-// Every option of every command that names a file or folder to write: a path that cannot be written is
-// refused before the work, and what ambrig did not make stays as it is. The table is held against the help
-// texts: a new option has its row, or is listed as one that names what is read.
+// Every option of every command that names a file or folder to write: a path that cannot be written
+// is refused before the work, and what ambrig did not make stays as it is. The table is held
+// against the help texts: a new option has its row, or is listed as one that names what is read.
 #include <gmock/gmock.h>
 
 #include <sys/stat.h>

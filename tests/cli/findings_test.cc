@@ -1,4 +1,5 @@
-// What a hostile and a demanding user found and no other suite holds: each case failed before its mend.
+// What a hostile and a demanding user found and no other suite holds: each case failed before its
+// mend.
 #include <gmock/gmock.h>
 
 #include "tests/cli/cli_run.h"
@@ -56,9 +57,10 @@ TEST_F(Findings, AFormulaIsNotEchoedWhole) {
   ExpectOneLine(Ambrig("run s.toml --quiet"), "rig.toml:");
 }
 
-// Both windows of one side of a thrust bearing open (Z.coil1 and Z.coil2, which pull towards +z). The magnet that is
-// left pulls one way: a load against it holds the rotor up, a load along its pull drops it, and without a load nothing
-// brings it back, so that it touches without being dropped. Both coils are named, and the magnet left is used.
+// Both windows of one side of a thrust bearing open (Z.coil1 and Z.coil2, which pull towards +z).
+// The magnet that is left pulls one way: a load against it holds the rotor up, a load along its
+// pull drops it, and without a load nothing brings it back, so that it touches without being
+// dropped. Both coils are named, and the magnet left is used.
 TEST_F(Findings, BothWindowsOfAThrustSideLeaveOneWay) {
   Write("rig.toml", ReferenceRigText());
   const std::string faults =
@@ -77,8 +79,8 @@ TEST_F(Findings, BothWindowsOfAThrustSideLeaveOneWay) {
   EXPECT_THAT(verdict(""), HasSubstr("touched down, did not drop"));
 }
 
-// Springs that couple the directions one-sidedly have no critical speeds in that sense; a shaft in the air
-// has rigid motions. Neither is an error of the program.
+// Springs that couple the directions one-sidedly have no critical speeds in that sense; a shaft in
+// the air has rigid motions. Neither is an error of the program.
 TEST_F(Findings, CriticalSpeedsWantSymmetricSprings) {
   const std::string published =
       ReadText(AMBRIG_SOURCE_DIR "/examples/validation/friswell_5_9_1.validation.toml");

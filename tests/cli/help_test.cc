@@ -70,7 +70,8 @@ TEST_F(Help, LinesFitTheTerminal) {
   for (const std::string& call : calls) ExpectNarrow(Ambrig(call).text, call);
 }
 
-// Nor is a line broken twice: a footer's line that is wider than the screen leaves a few words on the next one.
+// Nor is a line broken twice: a footer's line that is wider than the screen leaves a few words on
+// the next one.
 TEST_F(Help, FootersAreNotBrokenTwice) {
   for (const std::string& c : Commands()) {
     std::istringstream lines(Ambrig(c + " --help").text);

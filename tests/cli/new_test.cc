@@ -1,5 +1,5 @@
-// ambrig new: what it writes is read again by the commands, it says what it took for what, and it never
-// overwrites another's files.
+// ambrig new: what it writes is read again by the commands, it says what it took for what, and it
+// never overwrites another's files.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -45,8 +45,8 @@ TEST_F(NewBench, FromTenNumbersAndARecordToACase) {
   EXPECT_EQ(Ambrig("compare ball/case.toml").exit, 0);  // the files are there to go on with
 }
 
-// The ball lies at the magnet and shifts by half a millimetre: its gap moves as measured, but the currents do not carry
-// it, so that nothing is said of a free ball.
+// The ball lies at the magnet and shifts by half a millimetre: its gap moves as measured, but the
+// currents do not carry it, so that nothing is said of a free ball.
 TEST_F(NewBench, ABodyThatLiesOnSomethingIsNotFree) {
   Write("ball.toml",
         Replaced(ReadText(kExamplesOfNew + "ball.toml"), "../mls2em/data/inductance_em1_05.csv",
@@ -61,8 +61,9 @@ TEST_F(NewBench, ABodyThatLiesOnSomethingIsNotFree) {
   EXPECT_EQ(text.find("imposed = \"currents\""), std::string::npos);
 }
 
-// A levitated ball: its own run as the record. It hangs above the centre for half a second, x by its name; the ball
-// under the measured currents leaves nothing but noise. (The coils do not: every second duty was not logged.)
+// A levitated ball: its own run as the record. It hangs above the centre for half a second, x by
+// its name; the ball under the measured currents leaves nothing but noise. (The coils do not: every
+// second duty was not logged.)
 TEST_F(NewBench, ALevitatedBodyIsMovedByItsCurrents) {
   Write("numbers.toml",
         Replaced(ReadText(kExamplesOfNew + "ball.toml"), "record = ", "# record = "));
@@ -84,7 +85,8 @@ TEST_F(NewBench, ALevitatedBodyIsMovedByItsCurrents) {
   EXPECT_LT(records[1]["ratio"].get<double>(), 1.3);
 }
 
-// Currents read 1.4 times too large pull with twice the weight: neither surely free nor surely held. The user decides.
+// Currents read 1.4 times too large pull with twice the weight: neither surely free nor surely
+// held. The user decides.
 TEST_F(NewBench, ABodyInDoubtIsAskedFor) {
   Write("numbers.toml",
         Replaced(ReadText(kExamplesOfNew + "ball.toml"), "record = ", "# record = "));
@@ -111,8 +113,8 @@ TEST_F(NewBench, ABodyInDoubtIsAskedFor) {
   EXPECT_THAT(o.text, HasSubstr("body = \"hangs\", allowed: free, held"));
 }
 
-// A logger with a fifth of the controller's rate: what was commanded between its rows is nowhere, so that nothing of
-// the coils is compared.
+// A logger with a fifth of the controller's rate: what was commanded between its rows is nowhere,
+// so that nothing of the coils is compared.
 TEST_F(NewBench, CommandsBetweenTheRowsAreMissed) {
   Write("numbers.toml",
         Replaced(ReadText(kExamplesOfNew + "ball.toml"), "record = ", "# record = "));
@@ -164,7 +166,8 @@ TEST_F(NewBench, WordsAreLeftOutAndTablesAreNamed) {
   EXPECT_THAT(table.text, HasSubstr("a [[record]] of a case with kind = \"static\""));
 }
 
-// A body that comes to lie at the magnet reads zero and a little noise below: a distance all the same.
+// A body that comes to lie at the magnet reads zero and a little noise below: a distance all the
+// same.
 TEST_F(NewBench, ADistanceMayComeDownToZero) {
   std::string log = "t,z_m,i1_A,u1_duty\n";
   for (int k = 0; k < 400; ++k)
@@ -179,7 +182,8 @@ TEST_F(NewBench, ADistanceMayComeDownToZero) {
   EXPECT_THAT(ReadText(folder_ / "ball/case.toml"), HasSubstr("gain = -1.0, offset = 0.01"));
 }
 
-// For a page that asks: the questions of every template; what was written and which columns were taken.
+// For a page that asks: the questions of every template; what was written and which columns were
+// taken.
 TEST_F(NewBench, TellsItsQuestionsAndWhatItWroteAsJson) {
   EXPECT_EQ(Ambrig("new --list --json q.json").exit, 0);
   const auto q = nlohmann::json::parse(ReadText(folder_ / "q.json"));
@@ -220,8 +224,8 @@ struct Template {
 
 class NewTemplates : public CliFolder, public ::testing::WithParamInterface<Template> {};
 
-// Every template hovers with numbers of a small spindle; `run` fails when the orbit passes a quarter of
-// the gap.
+// Every template hovers with numbers of a small spindle; `run` fails when the orbit passes a
+// quarter of the gap.
 TEST_P(NewTemplates, Hover) {
   const std::string numbers =
       " --set mass=1.2 --set span=0.11 --set inertia_transverse=4e-3 --set turns=60 --set "

@@ -1,5 +1,6 @@
-// Equations without a solution: every command ends with one line and exit code 2, or tells it as a result
-// (a campaign's row, a check's line); never with a program error, and never with a wrong answer.
+// Equations without a solution: every command ends with one line and exit code 2, or tells it as a
+// result (a campaign's row, a check's line); never with a program error, and never with a wrong
+// answer.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
-// Every number that an option of any command takes has its range in the help text, and what lies outside is
-// refused with one line that names the option. The commands and options are those of the help texts.
+// Every number that an option of any command takes has its range in the help text, and what lies
+// outside is refused with one line that names the option. The commands and options are those of the
+// help texts.
 #include <gmock/gmock.h>
 
 #include <regex>

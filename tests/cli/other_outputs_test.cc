@@ -1,5 +1,5 @@
-// What ambrig did not make is never overwritten, by any command: the file stays, exit code 2, one line,
-// before any work; and never what a command reads.
+// What ambrig did not make is never overwritten, by any command: the file stays, exit code 2, one
+// line, before any work; and never what a command reads.
 #include <gmock/gmock.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
-// Text files that a command wrote carry the mark of ambrig and a hash of their lines: the command replaces them when it
-// is run again, and refuses when somebody changed them since.
+// Text files that a command wrote carry the mark of ambrig and a hash of their lines: the command
+// replaces them when it is run again, and refuses when somebody changed them since.
 #include "app/commands/outputs.h"
 #include "tests/cli/work_folder.h"
 

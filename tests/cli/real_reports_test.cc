@@ -1,5 +1,5 @@
-// Reports of real runs as a reader sees them: sections, figures, units, what is said of a rotor that
-// dropped, and nothing in a figure after the shaft went past its poles.
+// Reports of real runs as a reader sees them: sections, figures, units, what is said of a rotor
+// that dropped, and nothing in a figure after the shaft went past its poles.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -67,7 +67,8 @@ std::string AllCoilsOpen() {
   return "fault_tolerance = false\nseed = 3\n" + text;
 }
 
-// What fault, when it was seen, what was done about it: on the screen, in JSON and on the page alike.
+// What fault, when it was seen, what was done about it: on the screen, in JSON and on the page
+// alike.
 TEST_F(RealReports, AnOpenCoilIsToldInOrder) {
   const Outcome o = RunLasting(0.06, kOpenCoil);
   ASSERT_EQ(o.exit, 0) << o.text;
@@ -120,8 +121,9 @@ TEST_F(RealReports, AHealthyRunHasNoFaultSections) {
   EXPECT_THAT(words, HasSubstr("false alarms\nnot watched\n"));
 }
 
-// Nothing holds the rotor: it drops, bounces, and the linear magnets would draw it through its poles.
-// Orbits end at the gap, the clearance left at the poles, curves at that instant, and all say so.
+// Nothing holds the rotor: it drops, bounces, and the linear magnets would draw it through its
+// poles. Orbits end at the gap, the clearance left at the poles, curves at that instant, and all
+// say so.
 TEST_F(RealReports, PastThePolesNothingIsAFigure) {
   const Outcome o = RunLasting(0.5, AllCoilsOpen());
   ASSERT_EQ(o.exit, 0) << o.text;
@@ -163,7 +165,8 @@ TEST_F(RealReports, PastThePolesNothingIsAFigure) {
   EXPECT_TRUE(positions);
 }
 
-// Sixteen faults at one instant are one mark with one short label, not a line over the whole figure.
+// Sixteen faults at one instant are one mark with one short label, not a line over the whole
+// figure.
 TEST_F(RealReports, ManyFaultsAtOnceShareAShortLabel) {
   ASSERT_EQ(RunLasting(0.1, AllCoilsOpen()).exit, 0);
   EXPECT_THAT(Html(), HasSubstr("16 faults"));

@@ -23,9 +23,10 @@ class RigCommands : public CliFolder {
   Json JsonFile(const std::string& name) const { return Json::parse(ReadText(folder_ / name)); }
 };
 
-// W of a failure set: the dead coil has no current, the force is k c0 v. With Maxwell's force at the
-// centre, coils at angles a_j give f = (k/8) sum i_j^2 (cos a_j, sin a_j) per c0 and pattern; here only
-// what holds for any exact W is asked: no current in failed coils, healthy W is (1, cos, sin).
+// W of a failure set: the dead coil has no current, the force is k c0 v. With Maxwell's force at
+// the centre, coils at angles a_j give f = (k/8) sum i_j^2 (cos a_j, sin a_j) per c0 and pattern;
+// here only what holds for any exact W is asked: no current in failed coils, healthy W is (1, cos,
+// sin).
 TEST_F(RigCommands, RedistributeSilencesTheFailedCoils) {
   const Outcome o = Ambrig("redistribute rig.toml --failed '1;1,2' --json w.json --html w.html");
   ASSERT_EQ(o.exit, 0) << o.text;
@@ -49,8 +50,8 @@ TEST_F(RigCommands, RedistributeSilencesTheFailedCoils) {
   EXPECT_THAT(words, HasSubstr("\n{1,2}\nW, exact\nyes\n"));
 }
 
-// The force of an exact W, computed here from the poles: quadratic in (c0, v), its linear part k c0 v,
-// no bias force, no force along v_x from v_y.
+// The force of an exact W, computed here from the poles: quadratic in (c0, v), its linear part k c0
+// v, no bias force, no force along v_x from v_y.
 TEST_F(RigCommands, AnExactDistributionGivesTheForceThatItPromises) {
   ASSERT_EQ(Ambrig("redistribute rig.toml --failed 3 --json w.json").exit, 0);
   const Json j = JsonFile("w.json");

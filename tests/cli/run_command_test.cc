@@ -59,7 +59,8 @@ TEST_F(RunCommand, AFolderIsToldWhatRunsIt) {
   EXPECT_THAT(o.text, HasSubstr("ambrig paper ."));
 }
 
-// Whoever has never heard of commissioning is told what "doubtful" means, on the screen and the page.
+// Whoever has never heard of commissioning is told what "doubtful" means, on the screen and the
+// page.
 TEST_F(RunCommand, AnUncommissionedRigIsToldHowToTeachIt) {
   const Outcome o = Ambrig("run a.toml");
   ASSERT_EQ(o.exit, 0) << o.text;
@@ -82,7 +83,8 @@ TEST_F(RunCommand, SamplesThatEndBeforeTheRunAreNoted) {
 }
 
 // No auxiliary bearing, no clearance: a dash, not 0.
-// Nothing catches a ball whose magnet is lost: at the poles it has fallen, and no verdict says otherwise.
+// Nothing catches a ball whose magnet is lost: at the poles it has fallen, and no verdict says
+// otherwise.
 TEST_F(RunCommand, PastThePolesWithoutAuxiliaryBearingsIsADrop) {
   Write("fall.toml", "name = \"fall\"\nrig = \"" AMBRIG_SOURCE_DIR
                      "/scenarios/limits/one_axis.toml\"\nduration = 0.2\nrecord_rate = 1000.0\n"

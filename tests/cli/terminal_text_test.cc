@@ -1,5 +1,5 @@
-// What commands print: units beside every number, words instead of the program's own terms, 80 columns; and that what
-// `redistribute` prints is what a run does.
+// What commands print: units beside every number, words instead of the program's own terms, 80
+// columns; and that what `redistribute` prints is what a run does.
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
@@ -80,8 +80,8 @@ TEST_F(TerminalText, AnAbsurdSampleIsADataNote) {
   }
 }
 
-// Zone D is said in the verdict; crossings that are damped too much to have a peak are no critical speeds; the reports of
-// two rig.toml are two.
+// Zone D is said in the verdict; crossings that are damped too much to have a peak are no critical
+// speeds; the reports of two rig.toml are two.
 TEST_F(TerminalText, AnAnalysisSaysItsZonesAndOnlyTrueCriticals) {
   for (const char* name : {"one", "two"}) {
     std::filesystem::create_directory(folder_ / name);

@@ -1,5 +1,5 @@
-// ambrig watch: a rig that does not change stays within its bands, one that does is told with what changed; every record is
-// examined once.
+// ambrig watch: a rig that does not change stays within its bands, one that does is told with what
+// changed; every record is examined once.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A ball under a magnet whose coil is driven by measured duties (examples/mls2em); records are simulated.
+/// A ball under a magnet whose coil is driven by measured duties (examples/mls2em); records are
+/// simulated.
 class Watch : public CliFolder {
  protected:
   void SetUp() override {
@@ -110,7 +111,8 @@ TEST_F(Watch, WrongDataAndStrangeFilesAreToldNotFitted) {
     EXPECT_EQ(r["state"], r["data"] == "broken.csv" ? "refused" : "ok") << r;
 }
 
-// One sample of 1e308 A makes the error infinite, which JSON has no word for: the alarm is told all the same, and once.
+// One sample of 1e308 A makes the error infinite, which JSON has no word for: the alarm is told all
+// the same, and once.
 TEST_F(Watch, AnInfiniteErrorIsAnAlarm) {
   MakeCsv("logger/steps-05-spike.csv",
           [](std::size_t row, const std::string& cell) { return row == 700 ? "1e308" : cell; });

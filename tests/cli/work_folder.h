@@ -1,6 +1,7 @@
 #pragma once
-/// A folder with an input for every command: a rig (and the same under another name), scenarios, a campaign, a case of two records,
-/// an empty folder of a logger, and the scenarios and examples of the source tree.
+/// A folder with an input for every command: a rig (and the same under another name), scenarios, a
+/// campaign, a case of two records, an empty folder of a logger, and the scenarios and examples of
+/// the source tree.
 #include <gmock/gmock.h>
 
 #include <string>

@@ -1,4 +1,5 @@
-// What a point of a study is: its rig file, its draws, its limits, and what the journal keeps of it.
+// What a point of a study is: its rig file, its draws, its limits, and what the journal keeps of
+// it.
 #include "design/point.h"
 
 #include <gmock/gmock.h>
@@ -64,7 +65,8 @@ TEST(RigOfPoint, PutsTheNumbersInPlace) {
   EXPECT_THROW(RigOfPoint(Candidate(), {5.5e5}), std::logic_error);
 }
 
-// A draw moves every toleranced number by its sd times the deviate, inside its range; the drawing stays.
+// A draw moves every toleranced number by its sd times the deviate, inside its range; the drawing
+// stays.
 TEST(Drawn, MovesTheTrueValuesOnly) {
   RigParameters rig = ReadRigText(ReferenceRigText(), "rig.toml");
   std::vector<double> draw(rig.tolerances.size());

@@ -1,5 +1,5 @@
-// What a study file says arrives once, mistakes are one line each, and a whole study is the same points in the
-// same order for any number of threads.
+// What a study file says arrives once, mistakes are one line each, and a whole study is the same
+// points in the same order for any number of threads.
 #include "design/study.h"
 
 #include <gmock/gmock.h>
@@ -127,7 +127,8 @@ TEST_F(StudyFile, TheFingerprintIsOfAllFiles) {
   EXPECT_NE(Read(kText).fingerprint, first);
 }
 
-// Latin hypercube: each of n draws of a parameter in a stratum of its own; twice the scale, twice the deviates.
+// Latin hypercube: each of n draws of a parameter in a stratum of its own; twice the scale, twice
+// the deviates.
 TEST_F(StudyFile, DrawsAreSpreadOverTheTolerances) {
   const auto with = [&](const char* scale) {
     return Read(Replaced(

@@ -1,6 +1,6 @@
 #pragma once
-/// The reference rig without its thrust bearing, and the records of an examination in which it is clamped: a case of these takes
-/// a second.
+/// The reference rig without its thrust bearing, and the records of an examination in which it is
+/// clamped: a case of these takes a second.
 #include <gtest/gtest.h>
 
 #include <string>

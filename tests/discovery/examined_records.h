@@ -1,5 +1,6 @@
 #pragma once
-/// A few records of an examination, as a logger writes them, and a search that is short enough for tests.
+/// A few records of an examination, as a logger writes them, and a search that is short enough for
+/// tests.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-/// Cases whose model is linear in what is unknown: a clamped rotor, of which only the position readings
-/// of bearing A are compared. A reading is gain * position + offset, exactly, so that fits, signatures
-/// and rankings have answers in closed form.
+/// Cases whose model is linear in what is unknown: a clamped rotor, of which only the position
+/// readings of bearing A are compared. A reading is gain * position + offset, exactly, so that
+/// fits, signatures and rankings have answers in closed form.
 #include <fmt/format.h>
 
 #include <string>
@@ -17,8 +17,8 @@ struct LinearCase {
   static constexpr double kFloor = 1e-6;  // [m]
   static constexpr std::size_t kRows = 50;
 
-  /// One record per position x [m] of A.x (A.y is held at 0), the last one kept back for validation,
-  /// "measured" with the gain and offset [m] given.
+  /// One record per position x [m] of A.x (A.y is held at 0), the last one kept back for
+  /// validation, "measured" with the gain and offset [m] given.
   LinearCase(const std::vector<double>& positions, double gain, double offset)
       : x(positions), data(Make(positions, gain, offset)), model(data) {
     for (Target& t : model.targets()) t.floor = kFloor;

@@ -1,6 +1,7 @@
 #pragma once
-/// A whole case on a clamped rotor whose measurements are written down: readings of the reference rig at
-/// known places with a gain, an offset per record and white noise. What explains them is known exactly.
+/// A whole case on a clamped rotor whose measurements are written down: readings of the reference
+/// rig at known places with a gain, an offset per record and white noise. What explains them is
+/// known exactly.
 #include <fmt/format.h>
 
 #include <string>
@@ -18,8 +19,8 @@ struct MeasuredPlace {
   double gain = 1, offset = 0;
 };
 
-/// 400 rows of A.x, A.y, B.x, B.y per record, noise of 2e-7 m as the rig file states; the last record is
-/// kept back for validation.
+/// 400 rows of A.x, A.y, B.x, B.y per record, noise of 2e-7 m as the rig file states; the last
+/// record is kept back for validation.
 inline Case MeasuredCase(const std::vector<MeasuredPlace>& places) {
   constexpr std::size_t kRows = 400;
   Case c;

@@ -72,8 +72,9 @@ TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
   EXPECT_LT(StiffnessOf(with, 2).ks, 1.001 * StiffnessOf(without, 2).ks);
 }
 
-// Pull = phi²/(2 mu0 A) of all flux: at equal currents the flux is 1 + c times that of ideal iron, the
-// force (1 + c)² times; half and half with virtual work, whose force is 1 times, the mean of both.
+// Pull = phi²/(2 mu0 A) of all flux: at equal currents the flux is 1 + c times that of ideal iron,
+// the force (1 + c)² times; half and half with virtual work, whose force is 1 times, the mean of
+// both.
 TEST(Fringing, FluxThatPullsLikeTheFaceAddsToTheForceTwice) {
   const double c = 0.12;
   Plant face = PlantWith("fringing", "A", {{"coefficient", c}, {"face_pull", 1.0}}),
@@ -108,8 +109,8 @@ TEST(TurnMismatch, ScalesMmfResistanceAndLeakage) {
   EXPECT_EQ(with.bearings[1].lanes.n[2], without.bearings[1].lanes.n[2]);
 }
 
-// Plugs and switches stand in series with the winding; a drawing may count more than is there, but no coil has less
-// than nothing.
+// Plugs and switches stand in series with the winding; a drawing may count more than is there, but
+// no coil has less than nothing.
 TEST(AmplifierOffset, AddsAResistanceToItsCoil) {
   const Plant with = PlantWith("amplifier-offset", "A.coil3", {{"resistance", -0.1}}),
               none = PlantWith("amplifier-offset", "A.coil3", {{"resistance", -9}}),
@@ -209,8 +210,8 @@ TEST(CopperHeating, DutyCarriesTheWarmResistance) {
               0.05 * wanted);
 }
 
-// Heat that is shared warms a coil beyond its own loss: with four coils at 4 A and four at 1 A the mean
-// loss is 8.5 R A². dT settles at rise P, R = R20 (1 + 0.00393 dT).
+// Heat that is shared warms a coil beyond its own loss: with four coils at 4 A and four at 1 A the
+// mean loss is 8.5 R A². dT settles at rise P, R = R20 (1 + 0.00393 dT).
 TEST(CopperHeating, SharedHeatWarmsTheCoilsThatCarryLess) {
   const double rise = 30, tau = 2e-3;
   const RigParameters rig = ReferenceRig();

@@ -103,7 +103,8 @@ TEST(EddyCurrents, VanishAtRest) {
   EXPECT_NEAR(DropOf(law, 1e-5) / (gap * 1e-5), 1 / std::sqrt(kPi * 2 * kPi * 500 * t), 0.01);
 }
 
-// No conductor closes round the flux of a laminated stator: of two radial bearings and a thrust bearing it is the last.
+// No conductor closes round the flux of a laminated stator: of two radial bearings and a thrust
+// bearing it is the last.
 TEST(EddySleeve, ActsOnYokesInOnePiece) {
   EXPECT_EQ(TargetsOf(EffectNamed("eddy-sleeve"), TargetsOfEffects(ReferenceRig())),
             std::vector<std::string>{"Z"});
@@ -125,8 +126,8 @@ TEST(EddySleeve, DropIsTheRateOfTheFlux) {
   EXPECT_EQ(DropOf(law, 5e-6), 0);  // a standing flux costs nothing
 }
 
-// Imposed current jumps: φ = φ_static (1 - exp(-ω_c t)), in implicit steps of ω_c h = 5.6e-3, whose decay is
-// (1 + ω_c h)^-n: at t = 1/ω_c that is e^-1 (1 + ω_c h/2).
+// Imposed current jumps: φ = φ_static (1 - exp(-ω_c t)), in implicit steps of ω_c h = 5.6e-3, whose
+// decay is (1 + ω_c h)^-n: at t = 1/ω_c that is e^-1 (1 + ω_c h/2).
 TEST(EddySleeve, FluxFollowsACurrentStepWithOneTimeConstant) {
   Plant plant = PlantWith("eddy-sleeve", "A", {{"cutoff", 400}});
   StatorLanes& lanes = plant.bearings[0].lanes;

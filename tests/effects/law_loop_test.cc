@@ -1,4 +1,5 @@
-// Periods under one iron law in one loop, against the same samples one by one (stator_lanes_general.cc).
+// Periods under one iron law in one loop, against the same samples one by one
+// (stator_lanes_general.cc).
 #include "actuators/magnetics/law_loop.h"
 
 #include <gtest/gtest.h>
@@ -77,9 +78,9 @@ Outcome Compare(const OneLaw& law, double current) {
 
 class LawLoop : public testing::TestWithParam<OneLaw> {};
 
-// Either way stops where what is left of the tangent's error is kCorrected or kConverged of the flux, times the change of
-// the tangent over the circuit's stiffness, at most a tenth here. The linkages, which both ways integrate, keep the
-// errors of samples from adding up.
+// Either way stops where what is left of the tangent's error is kCorrected or kConverged of the
+// flux, times the change of the tangent over the circuit's stiffness, at most a tenth here. The
+// linkages, which both ways integrate, keep the errors of samples from adding up.
 TEST_P(LawLoop, GivesTheFluxesOfSingleSamples) {
   const Outcome out = Compare(GetParam(), 2);
   EXPECT_LT(out.worst_flux, 0.1 * (kCorrected + kConverged));

@@ -1,6 +1,6 @@
 #pragma once
-/// Commissioned detectors of whole runs of the switching engine, on plants whose effects are no part
-/// of any detector's model. None acts on the run; what each of them concludes is kept.
+/// Commissioned detectors of whole runs of the switching engine, on plants whose effects are no
+/// part of any detector's model. None acts on the run; what each of them concludes is kept.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,4 +1,5 @@
-/// What the library of an FMU shows: every function of the standard, nothing else, no library of ours.
+/// What the library of an FMU shows: every function of the standard, nothing else, no library of
+/// ours.
 #include <gtest/gtest.h>
 
 #include <set>

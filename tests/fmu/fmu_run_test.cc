@@ -1,4 +1,5 @@
-/// FMUs of rigs, in both versions of FMI: the numbers of `ambrig run`, states, parameters, mistakes.
+/// FMUs of rigs, in both versions of FMI: the numbers of `ambrig run`, states, parameters,
+/// mistakes.
 #include <gtest/gtest.h>
 
 #include <cmath>

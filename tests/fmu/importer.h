@@ -1,6 +1,6 @@
 #pragma once
-/// A small importer of FMUs for co-simulation, FMI 2.0 and 3.0: unpacks, loads, finds every function by
-/// its name. Written from the standard; nothing of fmu/ is in it.
+/// A small importer of FMUs for co-simulation, FMI 2.0 and 3.0: unpacks, loads, finds every
+/// function by its name. Written from the standard; nothing of fmu/ is in it.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// The cache of current distributions: damaged as it is, and with check sums that fit, behind which an entry's numbers stand.
+// The cache of current distributions: damaged as it is, and with check sums that fit, behind which
+// an entry's numbers stand.
 #include <nlohmann/json.hpp>
 
 #include "core/base/fingerprint.h"

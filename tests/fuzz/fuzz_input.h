@@ -1,6 +1,6 @@
 #pragma once
-/// What every fuzz target needs. A reader either takes its input or refuses it with an InputError of one line; a signal, a report
-/// of a sanitizer, another exception and a time-out are findings.
+/// What every fuzz target needs. A reader either takes its input or refuses it with an InputError
+/// of one line; a signal, a report of a sanitizer, another exception and a time-out are findings.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -17,7 +17,8 @@ inline std::string_view TextOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A file in memory with this content, for readers that take a path. Its extension is that of the kind; one file a process.
+/// A file in memory with this content, for readers that take a path. Its extension is that of the
+/// kind; one file a process.
 inline std::string FileOf(const std::uint8_t* data, std::size_t size,
                           const std::string& extension) {
   static const std::filesystem::path folder = [] {

@@ -1,6 +1,6 @@
 // catalogue: PlantedBearing
-/// Planted by tools/planted_change.py: an axial bearing with one winding on each side of its disk, with
-/// parameters of its own that no other part of the program knows.
+/// Planted by tools/planted_change.py: an axial bearing with one winding on each side of its disk,
+/// with parameters of its own that no other part of the program knows.
 #include "effects/plant.h"
 #include "rig/parameters/bearing_kind.h"
 

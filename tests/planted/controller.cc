@@ -1,6 +1,6 @@
 // catalogue: PlantedKind
-/// Planted by tools/planted_change.py: kind = "planted", proportional and filtered derivative action
-/// on every axis,  f = (stiffness + damping s/(1 + s lag)) e,  sampled by the bilinear map.
+/// Planted by tools/planted_change.py: kind = "planted", proportional and filtered derivative
+/// action on every axis,  f = (stiffness + damping s/(1 + s lag)) e,  sampled by the bilinear map.
 #include "control/interface/controller_kind.h"
 #include "control/position/state_space_controller.h"
 

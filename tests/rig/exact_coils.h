@@ -1,5 +1,6 @@
 #pragma once
-/// Rigs whose coils are all alike and whose edges and samples are on time: what closed forms are written for.
+/// Rigs whose coils are all alike and whose edges and samples are on time: what closed forms are
+/// written for.
 #include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {

@@ -1,4 +1,5 @@
-// Currents from forces by the inverse of the magnets: the force of independent laws is the one asked for, at any place.
+// Currents from forces by the inverse of the magnets: the force of independent laws is the one
+// asked for, at any place.
 #include "rig/magnet_inverse.h"
 
 #include <gtest/gtest.h>

@@ -143,7 +143,8 @@ TEST(BearingKinds, AreFoundByTheNamesThatFilesGiveThem) {
   EXPECT_EQ(BearingParameters{}.kind, FindBearingKind("radial"));
 }
 
-// The coils of a bearing pull in all directions alike: their sum is zero, Σ d d' is a multiple of 1.
+// The coils of a bearing pull in all directions alike: their sum is zero, Σ d d' is a multiple of
+// 1.
 TEST(CoilDirections, AreBalanced) {
   for (const BearingParameters& b : ReferenceLanesRig().bearings) {
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0;

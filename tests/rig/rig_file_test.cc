@@ -1,4 +1,5 @@
-// What a rig file says arrives in the parameters, once, with its spreads; mistakes are one line each.
+// What a rig file says arrives in the parameters, once, with its spreads; mistakes are one line
+// each.
 #include "rig/rig_file.h"
 
 #include <gmock/gmock.h>
@@ -176,7 +177,8 @@ TEST(RigParameters, EveryRowOfThePageIsDescribed) {
     EXPECT_TRUE(sections.contains(section)) << section;
 }
 
-// A stretch to either side of the bearings as long as their distance, at least to the centre of mass.
+// A stretch to either side of the bearings as long as their distance, at least to the centre of
+// mass.
 TEST(ShaftExtent, OfARigidRotorReachesBeyondItsBearings) {
   RigParameters rig = Read(ReferenceRigText());
   const auto [lo, hi] = ShaftExtent(rig);

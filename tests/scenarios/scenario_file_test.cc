@@ -229,8 +229,9 @@ TEST(ScenarioFile, ExcitationsNeedATargetOfTheirPort) {
             0.5);
 }
 
-// Half the controller's rate of 12.5 kHz for an axis, half the switching frequency of 25 kHz for a coil: what is faster
-// would come out as another, slower signal, and a multiple of the rate as none at all.
+// Half the controller's rate of 12.5 kHz for an axis, half the switching frequency of 25 kHz for a
+// coil: what is faster would come out as another, slower signal, and a multiple of the rate as none
+// at all.
 TEST(ScenarioFile, CommandsAboveHalfTheirRateAreRefused) {
   const auto on = [](const char* target, const char* signal) {
     return ScenarioMessage(std::string("[[excitation]]\namplitude = 1.0\n") + target + signal);

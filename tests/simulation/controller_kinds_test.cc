@@ -1,4 +1,5 @@
-// Kinds of controllers in runs: duties without a current loop, state feedback, feedback linearisation.
+// Kinds of controllers in runs: duties without a current loop, state feedback, feedback
+// linearisation.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -53,8 +54,9 @@ TEST(ControllerKinds, StateFeedbackHovers) {
   EXPECT_LT(Largest(r, "A.r.y"), 5e-6);
 }
 
-/// Six poles without weight under a PID of either kind. The reference moves both journals to `reference`, then a force
-/// of 0.4 N in the middle comes and goes; the sensors stand at `sensors` from the middle, the magnets at 60 mm.
+/// Six poles without weight under a PID of either kind. The reference moves both journals to
+/// `reference`, then a force of 0.4 N in the middle comes and goes; the sensors stand at `sensors`
+/// from the middle, the magnets at 60 mm.
 struct Pushed {
   double place = 0, yield = 0;  // [m]
 };
@@ -79,9 +81,9 @@ Pushed PushAt(const char* kind, double reference, double sensors = 0.070) {
   return {before, x.back() - before};
 }
 
-// A force yields F/(2 kp) wherever the rotor is, as in a linear loop. With the bias-current map the gain of the magnets
-// grows off the centre: at a third of the gap, with bias and control currents of no force together, by
-// sum c²/(1 - u c)/3 = 1.09 over the poles' cosines c.
+// A force yields F/(2 kp) wherever the rotor is, as in a linear loop. With the bias-current map the
+// gain of the magnets grows off the centre: at a third of the gap, with bias and control currents
+// of no force together, by sum c²/(1 - u c)/3 = 1.09 over the poles' cosines c.
 TEST(ControllerKinds, FeedbackLinearisationIsLinearFarFromTheCentre) {
   const double stiff = 0.4 / (2 * 2.0e5);
   for (const double reference : {0.0, 5.0e-5, 1.0e-4}) {
@@ -105,14 +107,16 @@ TEST(ControllerKinds, FeedbackLinearisationKnowsWhereItsSensorsStand) {
                          kShared),
       "[0.0, -9.81, 0.0]", "[0.0, 0.0, 0.0]");
   const RunResult r = Hover(rig, kPush);
-  // No force at rest, so both sensors read their references; the magnet stands at 130/140 of the way.
+  // No force at rest, so both sensors read their references; the magnet stands at 130/140 of the
+  // way.
   EXPECT_NEAR(r.record.Find("A.x")->samples.back(), 6e-5, 3e-7);
   EXPECT_NEAR(r.record.Find("B.x")->samples.back(), 0, 3e-7);
   EXPECT_NEAR(r.record.Find("A.r.x")->samples.back(), 6e-5 * 130 / 140, 3e-7);
 }
 
-/// Gains in duties, and the same in forces: N = k c0 2 U/kp. The loop is one that `ambrig analyze` finds stable at all
-/// speeds: in a loop that is not, the clamped force makes a limit cycle, which amplifies the rounding of N.
+/// Gains in duties, and the same in forces: N = k c0 2 U/kp. The loop is one that `ambrig analyze`
+/// finds stable at all speeds: in a loop that is not, the clamped force makes a limit cycle, which
+/// amplifies the rounding of N.
 TEST(ControllerKinds, DutyPidIsAPidInItsUnits) {
   std::string rig = Replaced(kSixPoles, "bandwidth = 1200.0", "mode = \"voltage\"\nkp = 1.0");
   const RigParameters p = ReadRigText(rig, "rig.toml");

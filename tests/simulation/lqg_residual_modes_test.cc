@@ -1,5 +1,6 @@
-// An LQG controller synthesised on a rig with `static_correction`: its model holds the residual modes or leaves them
-// out (model_modes); either holds the shaft at the speeds that it was designed for.
+// An LQG controller synthesised on a rig with `static_correction`: its model holds the residual
+// modes or leaves them out (model_modes); either holds the shaft at the speeds that it was designed
+// for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@ using testing::Replaced;
 
 const std::string kLqgFolder = std::string(AMBRIG_SOURCE_DIR) + "/examples/design_tum/";
 
-/// `modes` of the rig beside its two residual modes, `model_modes` of the controller's model (-1: all that the rig has).
+/// `modes` of the rig beside its two residual modes, `model_modes` of the controller's model (-1:
+/// all that the rig has).
 RigParameters LqgRig(int modes, bool corrected, int model_modes) {
   std::string text = ReadFile(kLqgFolder + "lqg.toml");
   text = Replaced(text, "modes = 6 ", "modes = " + std::to_string(modes) + " ");
@@ -57,16 +59,17 @@ TEST(LqgWithResidualModes, TheLinearLoopIsStable) {
   EXPECT_GT(LargestRadius(blind, blind), 1 + 1e-6);
 }
 
-// The residual modes stand where no mode of the shaft is: a design on them must hold the shaft with the eight modes that its
-// elements have.
+// The residual modes stand where no mode of the shaft is: a design on them must hold the shaft with
+// the eight modes that its elements have.
 TEST(LqgWithResidualModes, HoldsTheShaftWithItsOwnModes) {
   const RigParameters whole = LqgRig(8, false, 4);
   for (const int model_modes : {4, -1})
     EXPECT_LT(LargestRadius(whole, LqgRig(4, true, model_modes)), 1) << model_modes;
 }
 
-// 5 N at the disk of the turning shaft: integral action brings the sensors back, the shaft between them stays bent as the
-// whole beam on rigid supports there. Bounds: what is left of the closed loop's slowest decay, and of the controller's tremble.
+// 5 N at the disk of the turning shaft: integral action brings the sensors back, the shaft between
+// them stays bent as the whole beam on rigid supports there. Bounds: what is left of the closed
+// loop's slowest decay, and of the controller's tremble.
 TEST(LqgWithResidualModes, CarriesALoadInARun) {
   BeamDefinition d = testing::Mbtr().beam->definition;
   d.supports = {IsotropicSupport(0.113, 1e12, 0), IsotropicSupport(0.623, 1e12, 0)};

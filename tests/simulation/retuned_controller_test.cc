@@ -1,4 +1,5 @@
-// A controller that is designed anew for the coils that are left: what it is designed for, and how it takes over.
+// A controller that is designed anew for the coils that are left: what it is designed for, and how
+// it takes over.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// A rig whose dropped bending modes leave their static compliance at the magnets: `static_correction` of [rotor].
+// A rig whose dropped bending modes leave their static compliance at the magnets:
+// `static_correction` of [rotor].
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,8 +39,9 @@ TEST(StaticCorrection, TheRigHasAResidualModeForEachBearing) {
   EXPECT_TRUE(ResidualPlanes(plain).empty());
 }
 
-// x at A's sensor for a force at A's magnet, on springs and dampers at the magnets, below the kept modes: the rig's linear
-// model against the whole beam. What is left is of second order in what the kept modes alone miss.
+// x at A's sensor for a force at A's magnet, on springs and dampers at the magnets, below the kept
+// modes: the rig's linear model against the whole beam. What is left is of second order in what the
+// kept modes alone miss.
 std::complex<double> OfTheRig(const RigParameters& rig, double w) {
   const Plant plant = BuildPlant(TrueRig(rig));
   const LinearRotor linear = LinearRotorOf(plant);
@@ -76,8 +78,9 @@ TEST(StaticCorrection, SensorsMoveAsOnTheWholeBeam) {
   }
 }
 
-// Gravity does not push free modes: what bends the shaft are the magnets' forces, so that a levitated run hangs as the
-// whole beam does, with no bending mode kept at all. The bound is the controller's tremble, 0.2 um of 0.6 mm.
+// Gravity does not push free modes: what bends the shaft are the magnets' forces, so that a
+// levitated run hangs as the whole beam does, with no bending mode kept at all. The bound is the
+// controller's tremble, 0.2 um of 0.6 mm.
 TEST(StaticCorrection, ALevitatedShaftHangsAsTheWholeBeam) {
   BeamDefinition d = testing::Mbtr().beam->definition;
   d.supports = {IsotropicSupport(0.113, 1e12, 0), IsotropicSupport(0.623, 1e12, 0)};
@@ -120,8 +123,8 @@ TEST(StaticCorrection, TheRunSaysWhatCarriesTheCompliance) {
   EXPECT_NE(DroppedModesText(a).find("residual modes at"), std::string::npos);
 }
 
-// A blow to the disk of the turning, levitated rotor: the engines and SUNDIALS, one trajectory. Bounds as in
-// tests/simulation/levitated_shaft_test.cc.
+// A blow to the disk of the turning, levitated rotor: the engines and SUNDIALS, one trajectory.
+// Bounds as in tests/simulation/levitated_shaft_test.cc.
 TEST(StaticCorrection, FidelitiesAgree) {
   const RigParameters rig = TumRig(Corrected(2));
   Scenario scenario = Quiet(rig, 0.02, 300);

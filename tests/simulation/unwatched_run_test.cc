@@ -1,4 +1,5 @@
-// Runs without fault detection say so, or are refused where the scenario asks for what only it can give.
+// Runs without fault detection say so, or are refused where the scenario asks for what only it can
+// give.
 #include <gmock/gmock.h>
 
 #include "simulation/simulate.h"

@@ -1,4 +1,5 @@
-// Thinned series against brute force: the least and greatest of every column, however views and gaps lie.
+// Thinned series against brute force: the least and greatest of every column, however views and
+// gaps lie.
 #include "workbench/extremes.h"
 
 #include <gtest/gtest.h>

@@ -32,8 +32,8 @@ class ServedBench : public BenchFolder {
     BenchFolder::TearDown();
   }
 
-  /// Starts `ambrig serve` on the folder and reads its address. The shell gives way to the program, after
-  /// `before` ("ulimit -f 64; ").
+  /// Starts `ambrig serve` on the folder and reads its address. The shell gives way to the program,
+  /// after `before` ("ulimit -f 64; ").
   void Serve(const std::string& before = "") {
     const std::string file = (base_ / "address").string();
     std::filesystem::remove(file);

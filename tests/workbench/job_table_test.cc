@@ -1,4 +1,5 @@
-// What reaches a command line: the commands and arguments of the table, files of the folder, nothing else.
+// What reaches a command line: the commands and arguments of the table, files of the folder,
+// nothing else.
 #include "workbench/job_table.h"
 
 #include <gmock/gmock.h>

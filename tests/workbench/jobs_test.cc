@@ -108,7 +108,8 @@ TEST_F(JobsOf, AJobRunsInTheFolderAndItsEventsCarryItsNumber) {
   EXPECT_EQ(jobs.Latest("run", "rig.toml"), 0);
 }
 
-// 1 is an answer (an expectation does not hold); every other code is a failure with the program's own words.
+// 1 is an answer (an expectation does not hold); every other code is a failure with the program's
+// own words.
 TEST_F(JobsOf, CodesAndErrors) {
   EventLog events;
   const ServedFolder folder(served());
@@ -144,7 +145,8 @@ TEST_F(JobsOf, TheSameWorkIsSharedWhileItRunsAndStoppedOnce) {
   EXPECT_EQ(Ended(jobs, 2)["state"], "stopped");
 }
 
-// Two light jobs run at once; the third waits, and is gone without having begun when it is stopped then.
+// Two light jobs run at once; the third waits, and is gone without having begun when it is stopped
+// then.
 TEST_F(JobsOf, AWaitingJobIsStoppedWithoutBeginning) {
   Program(kWaits);
   Write("served/third.toml", "name = \"t\"\n");
@@ -183,7 +185,8 @@ TEST_F(JobsOf, WhatRanWhenTheServerEndedIsInterruptedAndItsNumberNotUsedAgain) {
   EXPECT_EQ(Ended(jobs, 3)["state"], "done");
 }
 
-// Each change in the playground makes runs: the newest stay, what is no run of it stays whatever comes.
+// Each change in the playground makes runs: the newest stay, what is no run of it stays whatever
+// comes.
 TEST_F(JobsOf, OldRunsOfThePlaygroundAreForgotten) {
   Write("served/s.toml", "rig = \"rig.toml\"\nduration = 1.0\n");
   const ServedFolder folder(served());

@@ -1,4 +1,5 @@
-// Records that the page looks at are kept in single precision, the last ones, and read again when their file changes.
+// Records that the page looks at are kept in single precision, the last ones, and read again when
+// their file changes.
 #include "workbench/record_shelf.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// The server as others meet it: other pages, other users, broken and random requests, many clients, kill -9.
+// The server as others meet it: other pages, other users, broken and random requests, many clients,
+// kill -9.
 #include <gmock/gmock.h>
 
 #include <atomic>

@@ -1,4 +1,5 @@
-// Work of the server that lasts: a watched folder, a campaign, the playground, a full disk, kill -9 in an adoption.
+// Work of the server that lasts: a watched folder, a campaign, the playground, a full disk, kill -9
+// in an adoption.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -103,8 +104,8 @@ TEST_F(ServeWork, RunsOfThePlaygroundLeaveTheFolderAsItIs) {
   EXPECT_EQ(Ask("POST", "/api/jobs", R"({"command":"difference","a":99,"b":1})").status, 400);
 }
 
-// Files that may not grow beyond 32 KiB: everything that does not fit is refused with its reason, nothing
-// half-written stays, the server goes on.
+// Files that may not grow beyond 32 KiB: everything that does not fit is refused with its reason,
+// nothing half-written stays, the server goes on.
 TEST_F(ServeWork, AFullDiskIsAnErrorAndNoMore) {
   ServedBench::Serve("ulimit -f 64; ");
   const std::string large(200000, 'x');
@@ -124,8 +125,8 @@ TEST_F(ServeWork, AFullDiskIsAnErrorAndNoMore) {
   EXPECT_EQ(Kill(SIGINT), 0);
 }
 
-// Whenever it is killed: the case is as it was, the new files are whole or absent, and the same click
-// afterwards gives them.
+// Whenever it is killed: the case is as it was, the new files are whole or absent, and the same
+// click afterwards gives them.
 TEST_F(ServeWork, KilledInTheMiddleOfAnAdoption) {
   const std::string rig = Text("served/ball/rig.toml"), case_text = Text("served/ball/case.toml");
   const nlohmann::json order = {{"command", "adopt"},

@@ -1,4 +1,5 @@
-// Nothing outside the folder, nothing hidden, nothing that is no file: by whatever name it is asked for.
+// Nothing outside the folder, nothing hidden, nothing that is no file: by whatever name it is asked
+// for.
 #include "workbench/served_folder.h"
 
 #include <gmock/gmock.h>

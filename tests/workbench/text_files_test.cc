@@ -1,4 +1,5 @@
-// Writing from the page: only what was seen is replaced, every step can be undone, a mended case is read.
+// Writing from the page: only what was seen is replaced, every step can be undone, a mended case is
+// read.
 #include "workbench/text_files.h"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 /// Eddy currents of other orders than one half: a fractional order as a sum of relaxations
 /// (effects/eddy_impedance.cc), two sheet thicknesses in one core, one closed ring.
 ///   (s/w)^a = sin(a pi)/pi ∫ (p/w)^a s/(s + p) d ln p,  poles half a decade apart
-/// Source: docs/theory/published_values.md 7 (orders between 0.4 and 0.7 are measured); the integral
-/// is that of Cole and Cole 1941 for a power of s.
+/// Source: docs/theory/published_values.md 7 (orders between 0.4 and 0.7 are measured); the
+/// integral is that of Cole and Cole 1941 for a power of s.
 #include <cmath>
 
 #include "core/math/constants.h"

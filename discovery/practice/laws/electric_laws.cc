@@ -1,6 +1,6 @@
-/// Amplifiers and supplies: an offset that depends on the current as the voltage of a junction does,
-/// current sensors with an error of two kinds at once, a source that is slower than the catalogue's
-/// beside a dead time.
+/// Amplifiers and supplies: an offset that depends on the current as the voltage of a junction
+/// does, current sensors with an error of two kinds at once, a source that is slower than the
+/// catalogue's beside a dead time.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace ambrig {
 namespace {
 
 std::vector<EffectInstance> OffsetOfCurrent(LawSetting s) {
-  // A junction's voltage grows with the logarithm of its current. The catalogue's law is a line: offset and resistance.
+  // A junction's voltage grows with the logarithm of its current. The catalogue's law is a line:
+  // offset and resistance.
   const double u = s.draw.Sign() * 0.5 * s.size, share = s.draw.Between(0.3, 0.9),
                knee = s.draw.Log(0.3, 2);
   const std::string law =

@@ -1,5 +1,5 @@
-/// Hysteresis with other spreads of its operators than the catalogue's: most in narrow loops, or two
-/// populations (effects/play_hysteresis.cc).
+/// Hysteresis with other spreads of its operators than the catalogue's: most in narrow loops, or
+/// two populations (effects/play_hysteresis.cc).
 #include <cmath>
 
 #include "discovery/practice/laws/practice_law.h"

@@ -1,5 +1,5 @@
-/// Forces at a plane that depend on where the rotor is: cross-coupling that grows with the speed and
-/// damps, or falls off with the orbit; magnetic pull that hardens towards the stator or differs
+/// Forces at a plane that depend on where the rotor is: cross-coupling that grows with the speed
+/// and damps, or falls off with the orbit; magnetic pull that hardens towards the stator or differs
 /// between the axes; rotating damping that depends on the size of the motion; loads that swing.
 #include <fmt/format.h>
 

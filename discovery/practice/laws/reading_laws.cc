@@ -1,6 +1,6 @@
 /// Position sensors whose error has another form: a gain that bends or differs between the two
-/// directions, axes that are not square to each other, a zero that drifts, hum that comes and goes, a dent
-/// in the surface, electronics of second order.
+/// directions, axes that are not square to each other, a zero that drifts, hum that comes and goes,
+/// a dent in the surface, electronics of second order.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -63,8 +63,8 @@ std::vector<EffectInstance> WaxingHum(LawSetting s) {
   return {FormulaAt(s.target, {{"reading.x", "x + " + hum}, {"reading.y", "y + " + hum}})};
 }
 
-/// A dent of the surface passes the probes of x and y a quarter of a turn apart. Less its mean over a turn, which would be a
-/// zero of both sensors, another effect.
+/// A dent of the surface passes the probes of x and y a quarter of a turn apart. Less its mean over
+/// a turn, which would be a zero of both sensors, another effect.
 std::vector<EffectInstance> Dent(LawSetting s) {
   const double depth = 0.04 * s.reach * s.size, narrow = s.draw.Log(0.7, 4),
                place = s.draw.Between(-3, 3),

@@ -1,6 +1,6 @@
 /// Structures with more than one mode: a base whose second mode is weak, a shaft with two bending
-/// modes or of another shape than the uniform rod's, a floor that shakes with harmonics, a bow beside
-/// a surface of second order.
+/// modes or of another shape than the uniform rod's, a floor that shakes with harmonics, a bow
+/// beside a surface of second order.
 #include <cmath>
 
 #include "discovery/practice/laws/practice_law.h"

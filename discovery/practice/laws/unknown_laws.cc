@@ -1,6 +1,6 @@
 /// Physics that the catalogue lacks; the right verdict is "unknown". A rub at one clock position, a
-/// force that turns many times a revolution, friction of Coulomb with a Stribeck drop, a spring with
-/// play, readings that see a current, a shaft of two stiffnesses, blows at intervals.
+/// force that turns many times a revolution, friction of Coulomb with a Stribeck drop, a spring
+/// with play, readings that see a current, a shaft of two stiffnesses, blows at intervals.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -46,7 +46,8 @@ TEST(PowerBridge, FourQuadrantsSwingBothWays) {
   EXPECT_NEAR(Mean(PowerBridge(p).Pattern(0.5, {}), 30, 40e-6), 0, 1e-12);
 }
 
-// With all switches open the diodes lead the current back into the bus, whatever its sign and the duty.
+// With all switches open the diodes lead the current back into the bus, whatever its sign and the
+// duty.
 TEST(PowerBridge, AnOpenBridgeActsAgainstTheCurrent) {
   AmplifierParameters p = Reference();
   p.quadrants = 4;
@@ -108,7 +109,8 @@ TEST(PowerBridge, NothingComesOutBelowTheDeadDuty) {
   }
 }
 
-// The end of an on-phase comes late: so much more of the bus; a bridge that does not switch has no edge.
+// The end of an on-phase comes late: so much more of the bus; a bridge that does not switch has no
+// edge.
 TEST(PowerBridge, ALateEdgeLengthensTheOnPhase) {
   const double T = 40e-6, U = 30, late = 0.2e-6;
   BridgeImperfection bridge;
@@ -151,8 +153,8 @@ TEST(PowerBridge, IdealOneIsTheSameForEveryModulation) {
     }
 }
 
-// Two bi-state legs half a period apart, whose mean the coil sees: voltage of the tri-state bridge at twice the frequency, drops
-// and all ("interleaved" of a rig file is that bridge).
+// Two bi-state legs half a period apart, whose mean the coil sees: voltage of the tri-state bridge
+// at twice the frequency, drops and all ("interleaved" of a rig file is that bridge).
 TEST(PowerBridge, InterleavedLegsAreATriStateBridgeAtTwiceTheFrequency) {
   AmplifierParameters leg = Reference(Modulation::kBiState),
                       both = Reference(Modulation::kTriState);
@@ -164,7 +166,8 @@ TEST(PowerBridge, InterleavedLegsAreATriStateBridgeAtTwiceTheFrequency) {
   };
   for (const double duty : {0.1, 0.37, 0.5, 0.62, 0.9}) {
     const CoilVoltage one = IdealBridgeVoltage(leg, duty), sum = IdealBridgeVoltage(both, duty);
-    // The half period as distribution over the voltages: where in it they come depends on the carriers.
+    // The half period as distribution over the voltages: where in it they come depends on the
+    // carriers.
     double legs[3] = {}, bridge[3] = {};
     constexpr int kInstants = 1000;
     for (int k = 0; k < kInstants; ++k) {

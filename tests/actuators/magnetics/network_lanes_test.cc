@@ -1,4 +1,5 @@
-// The circuit of any stator in lanes against the network itself and a dense solution of its equations.
+// The circuit of any stator in lanes against the network itself and a dense solution of its
+// equations.
 #include "actuators/magnetics/network_lanes.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,8 @@ TEST(NetworkLanes, FluxAndPullAreThoseOfTheNetwork) {
   }
 }
 
-// λ = T φ + L i of every driven coil, one that carries nothing, one beside it with a stiffer source.
+// λ = T φ + L i of every driven coil, one that carries nothing, one beside it with a stiffer
+// source.
 TEST(NetworkLanes, SourcesGiveTheDenseSolution) {
   for (const auto& n : Networks()) {
     const int coils = n->coils();

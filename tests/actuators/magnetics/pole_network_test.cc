@@ -1,5 +1,5 @@
-// Networks of stators of all kinds against closed forms: k_i and k_s of differential drive, fluxes of
-// permanent magnets, forces beyond the linear ones, and virtual work.
+// Networks of stators of all kinds against closed forms: k_i and k_s of differential drive, fluxes
+// of permanent magnets, forces beyond the linear ones, and virtual work.
 #include "actuators/magnetics/pole_network.h"
 
 #include <gtest/gtest.h>

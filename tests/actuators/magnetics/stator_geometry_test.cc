@@ -1,5 +1,5 @@
-// The one geometry of each stator against the closed forms of the stators, and that every user of it
-// holds the same numbers.
+// The one geometry of each stator against the closed forms of the stators, and that every user of
+// it holds the same numbers.
 #include "actuators/magnetics/stator_geometry.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
-// k_i and k_s of stators of the literature's kinds, with one set of dimensions: the network against closed forms
-// to 1e-9, and against numbers that were computed independently by central differences (all digits given).
+// k_i and k_s of stators of the literature's kinds, with one set of dimensions: the network against
+// closed forms to 1e-9, and against numbers that were computed independently by central differences
+// (all digits given).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +42,8 @@ double HomopolarField() {
 
 std::vector<StatorOracle> Oracles() {
   const double c = std::cos(10 * kPi / 180), B0 = HomopolarField();
-  // E-cores: centre poles of twice the area; of equal polarity half of their MMF is lost in the outer ones.
+  // E-cores: centre poles of twice the area; of equal polarity half of their MMF is lost in the
+  // outer ones.
   const double core = 4 * kFace * kField * kField / kMu0;
   return {
       {"Pairs8", "series-pairs", "NS", "", 8, 0, 116.0981, 5e-5, 628318.5, 0.05, PairsGain(8),
@@ -83,7 +85,8 @@ StatorParameters StatorOfOracle(const StatorOracle& o) {
   return p;
 }
 
-/// The coils of +x and -x (axial: of the two sides; a coil of both in series) carry i0 + i and i0 - i.
+/// The coils of +x and -x (axial: of the two sides; a coil of both in series) carry i0 + i and i0
+/// - i.
 Eigen::VectorXd DifferentialOf(const PoleNetwork& network) {
   const auto n = network.coils();
   if (n == 2 && network.has_magnets()) return Eigen::Vector2d(1, 0);
@@ -105,8 +108,8 @@ TEST_P(StatorOracles, GainAndNegativeStiffness) {
   EXPECT_NEAR(ks, o.ks_closed, 1e-9 * o.ks_closed);
   EXPECT_NEAR(ki, o.ki, o.ki_digits);
   EXPECT_NEAR(ks, o.ks, o.ks_digits);
-  // Central differences of the forces, as the numbers were made: force is quadratic in the currents, so that
-  // only rounding is left of the first; (dx/g)² of the second.
+  // Central differences of the forces, as the numbers were made: force is quadratic in the
+  // currents, so that only rounding is left of the first; (dx/g)² of the second.
   const double di = 1e-4, dx = 1e-8;
   const auto force = [&](double x, double i) {
     return network->Force({x, 0, 0}, bias + i * drive).x();

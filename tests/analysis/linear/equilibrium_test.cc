@@ -24,7 +24,8 @@ struct Standing {
       control.push_back(MakeBearingControl(NominalRig(rig), k));
     at = LevitatedEquilibrium(rig, plant, control);
   }
-  /// Magnetic force of all bearings along x, y, z with the equilibrium's currents, by the circuit [N].
+  /// Magnetic force of all bearings along x, y, z with the equilibrium's currents, by the circuit
+  /// [N].
   Eigen::Vector3d Magnets() const {
     Eigen::Vector3d f = Eigen::Vector3d::Zero();
     MotionState s;
@@ -60,7 +61,8 @@ TEST(Equilibrium, AtTheCentreTheCommandsAreTheWeight) {
   EXPECT_LT((s.Magnets() - Eigen::Vector3d(0, 4.2 * 9.81, 0)).norm(), 1e-5);
 }
 
-// A ball under one magnet: nothing pulls it sideways or tilts it, and the pull along its axis is the weight.
+// A ball under one magnet: nothing pulls it sideways or tilts it, and the pull along its axis is
+// the weight.
 TEST(Equilibrium, OfOneAxisIsUnique) {
   const Standing s(ReadRig(AMBRIG_SOURCE_DIR "/examples/mls2em/rig.toml"));
   ASSERT_TRUE(s.at.converged) << s.at.message;

@@ -1,4 +1,5 @@
-// One switching period of the linear plant against the exact flow and against edges that really move.
+// One switching period of the linear plant against the exact flow and against edges that really
+// move.
 #include "analysis/linear/period_map.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,8 @@ RigParameters Modulated(Modulation m) {
   return rig;
 }
 
-/// States over their usual sizes: metres, metres per second, webers, so that errors are compared alike.
+/// States over their usual sizes: metres, metres per second, webers, so that errors are compared
+/// alike.
 MatrixXd ScaledRows(const OnePeriod& p, MatrixXd rows) {
   const Index m = p.plant.m();
   rows.topRows(m) /= 1e-5;
@@ -56,7 +58,8 @@ TEST(PeriodMap, OfAPushSolvesTheEquationOfMotion) {
   EXPECT_LT((left - right).norm(), 1e-8 * right.norm());
 }
 
-/// x(T) and mean of the samples from rest with a voltage on coil j, `up` until `edge`, `down` after it.
+/// x(T) and mean of the samples from rest with a voltage on coil j, `up` until `edge`, `down` after
+/// it.
 std::pair<VectorXd, VectorXd> Driven(const OnePeriod& p, Index j, double edge, double up,
                                      double down) {
   const Index n = p.plant.n();

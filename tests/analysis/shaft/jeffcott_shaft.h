@@ -1,5 +1,6 @@
 #pragma once
-/// A shaft whose numbers are known by hand: a bar of 1.2 m that hardly bends, with a disk in its middle, on two equal supports.
+/// A shaft whose numbers are known by hand: a bar of 1.2 m that hardly bends, with a disk in its
+/// middle, on two equal supports.
 #include "analysis/shaft/shaft_analysis.h"
 #include "core/math/constants.h"
 

@@ -111,7 +111,8 @@ TEST(ShaftAnalysis, AFreeShaftIsSaidToBeFree) {
   EXPECT_TRUE(a.map.empty());
 }
 
-// A table of coefficients that ends below the highest speed is used with its last row, and that is said.
+// A table of coefficients that ends below the highest speed is used with its last row, and that is
+// said.
 TEST(ShaftAnalysis, ATableThatEndsTooEarlyIsNoted) {
   BeamFile file = JeffcottShaft(kSpring, kDamper);
   SpringSupport& s = file.definition.supports[1];

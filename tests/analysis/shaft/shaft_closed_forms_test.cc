@@ -20,7 +20,8 @@ BeamDefinition UniformBar(int elements) {
   return d;
 }
 
-/// A stiff bar with a disk, m = 10.15 kg together (Totals), in the middle on two springs of k/2 and dampers of c/2 each.
+/// A stiff bar with a disk, m = 10.15 kg together (Totals), in the middle on two springs of k/2 and
+/// dampers of c/2 each.
 BeamDefinition Jeffcott(double k, double c) {
   BeamDefinition d = UniformBar(2);
   d.sections[0].material = {1e13, 1, kNu};

@@ -46,8 +46,9 @@ TEST(ShaftScatter, QuantilesOfASpring) {
   EXPECT_EQ(again.modes[0].frequency.high, s.modes[0].frequency.high);
 }
 
-// The same spring under an unbalance u at the disk: below all its resonances |x| = u w²/|k - m w² + i c w| falls with k, so
-// that the quantiles of the response are the responses of the quantiles; critical speeds follow sqrt(k).
+// The same spring under an unbalance u at the disk: below all its resonances |x| = u w²/|k - m
+// w² + i c w| falls with k, so that the quantiles of the response are the responses of the
+// quantiles; critical speeds follow sqrt(k).
 TEST(ShaftScatter, QuantilesOfResponseAndCriticalSpeed) {
   const double k = 1e6, c = 50, sd = 0.05, u = 1e-5;
   BeamFile file = testing::JeffcottShaft(k, c);
@@ -92,7 +93,8 @@ TEST(ShaftScatter, QuantilesOfResponseAndCriticalSpeed) {
   }
 }
 
-// Only x scatters: of each pair of one pole the lower one is x below the file's stiffness and y above it.
+// Only x scatters: of each pair of one pole the lower one is x below the file's stiffness and y
+// above it.
 TEST(ShaftScatter, PairsOfOnePoleComeApart) {
   const double k = 1e6, sd = 0.05;
   BeamFile file = testing::JeffcottShaft(k, 50);

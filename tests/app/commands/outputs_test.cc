@@ -1,4 +1,5 @@
-// Before a command's work starts: what may be written, what a run will cost, and what its page is made of.
+// Before a command's work starts: what may be written, what a run will cost, and what its page is
+// made of.
 #include "app/commands/outputs.h"
 
 #include <gmock/gmock.h>
@@ -67,7 +68,8 @@ TEST_F(Outputs, OfOthersAreNotOverwrittenUnlessForced) {
   EXPECT_NO_THROW(RefuseOverwriting({folder_.File("new.json")}, false));
 }
 
-// What somebody changed is his own, whatever mark it carries; what went into another file takes its hash along not.
+// What somebody changed is his own, whatever mark it carries; what went into another file takes its
+// hash along not.
 TEST_F(Outputs, ChangedByHandAreNotOverwrittenUnlessForced) {
   const std::string file = folder_.File("rig.toml");
   WriteMarkedText(file, "adopt", "name = \"a\"\n");

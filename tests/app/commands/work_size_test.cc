@@ -1,5 +1,5 @@
-// What a campaign or an explain will cost, before it starts: proportional to what there is to do, refused
-// beyond a day or the memory, said beyond a minute.
+// What a campaign or an explain will cost, before it starts: proportional to what there is to do,
+// refused beyond a day or the memory, said beyond a minute.
 #include "app/commands/work_size.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,8 @@ class CampaignWork : public ::testing::Test {
   testing::CampaignFolder folder_;
 };
 
-// 32 runs of 10 ms of the reference rig after 0.25 s of warm-up, six times as fast as real time: 1.4 s.
+// 32 runs of 10 ms of the reference rig after 0.25 s of warm-up, six times as fast as real time:
+// 1.4 s.
 TEST_F(CampaignWork, IsTheRunsThatAreLeftOverTheCores) {
   const Campaign c = Read();
   ASSERT_EQ(c.runs(), 32u);

@@ -1,4 +1,5 @@
-// What figures are made of: marks, regions, levels, bands, heat maps, the drawing of a stator, residuals.
+// What figures are made of: marks, regions, levels, bands, heat maps, the drawing of a stator,
+// residuals.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -127,7 +127,8 @@ TEST(StiffnessFigure, StiffnessDampingAndTheLevitatedRotor) {
   EXPECT_EQ(f.layout["yaxis3"]["type"], "log");
 }
 
-// The phase of a double integrator with dead time falls on and on; it is drawn without jumps of a turn.
+// The phase of a double integrator with dead time falls on and on; it is drawn without jumps of a
+// turn.
 TEST(BodeFigure, PhaseHasNoJumps) {
   ResponseCurve c;
   c.input = "A.x.force";

@@ -1,5 +1,5 @@
-// Figures of measured against model from measurements that are written down: an offset stands in the time
-// panels at its size, in the spectrum above the noise, and is no white noise.
+// Figures of measured against model from measurements that are written down: an offset stands in
+// the time panels at its size, in the spectrum above the noise, and is no white noise.
 #include "app/figures/residual_figures.h"
 
 #include <gmock/gmock.h>
@@ -83,7 +83,8 @@ TEST_F(ResidualFigures, EveryChannelHasItsColumnAndOneLegendServesAll) {
   EXPECT_EQ(legends, 1);
 }
 
-// A tone of 1 µm that the model has too much stands at its frequency alone; mended, only noise is left.
+// A tone of 1 µm that the model has too much stands at its frequency alone; mended, only noise is
+// left.
 TEST_F(ResidualFigures, SpectrumStandsAboveTheNoiseWhereTheErrorIs) {
   std::vector<double> tone = mended_;
   for (std::size_t k = 0; k < Off().count; ++k)

@@ -1,5 +1,5 @@
-// Figures of a rotor's modes from analyses that are written down: axes that end where the reader needs
-// them, colours by whirl, criticals on the line of the speed.
+// Figures of a rotor's modes from analyses that are written down: axes that end where the reader
+// needs them, colours by whirl, criticals on the line of the speed.
 #include "app/figures/rotor_figures.h"
 
 #include <gmock/gmock.h>

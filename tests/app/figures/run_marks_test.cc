@@ -1,5 +1,5 @@
-// Marked instants of a run: faults at one instant share a mark, labels stay clear of the panels' titles,
-// and a run past its poles ends its curves.
+// Marked instants of a run: faults at one instant share a mark, labels stay clear of the panels'
+// titles, and a run past its poles ends its curves.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The table "JSON of the commands" of docs/guide/files.md beside what the program writes: every key at the
-// top of a document is named there, and what is named there is written.
+// The table "JSON of the commands" of docs/guide/files.md beside what the program writes: every key
+// at the top of a document is named there, and what is named there is written.
 #include <gmock/gmock.h>
 
 #include <regex>

@@ -1,4 +1,5 @@
-// What programs read: JSON of runs, comparisons, explanations and analyses, from results written by hand.
+// What programs read: JSON of runs, comparisons, explanations and analyses, from results written by
+// hand.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -65,7 +65,8 @@ TEST(RigDifferences, ANumberIsToldWithItsUnitAndInSds) {
   EXPECT_NEAR(RigDifferences(b, a)[0].sds, -2, 1e-9);
 }
 
-// A calibrated value is what simulates: a rig with value 4 fitted 4.2 equals one of 4.2 but for its tolerance.
+// A calibrated value is what simulates: a rig with value 4 fitted 4.2 equals one of 4.2 but for its
+// tolerance.
 TEST(RigDifferences, TheCalibratedValueCountsAndToleranceIsItsOwnLine) {
   RigParameters a = PlainRig();
   a.tolerances.clear();

@@ -1,5 +1,5 @@
-// The page and the JSON of an analysis of the reference rig: figures that hang together, every section, in
-// a browser too.
+// The page and the JSON of an analysis of the reference rig: figures that hang together, every
+// section, in a browser too.
 #include "app/pages/analysis_report.h"
 
 #include <fmt/format.h>

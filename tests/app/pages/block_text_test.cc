@@ -57,7 +57,8 @@ TEST(BlockText, AgreementAndNothingTested) {
   EXPECT_EQ(BlockText({}), "");
 }
 
-// A record without block tests does not count as the whole model's error beside those that have them.
+// A record without block tests does not count as the whole model's error beside those that have
+// them.
 TEST(BlockText, OnlyRecordsWithBlocksCount) {
   EXPECT_THAT(BlockText(Of({Of("a.h5", 20, {}), Of("b.h5", 1.1, {{"coil", 1.0}})})),
               HasSubstr("No block stands out"));

@@ -1,4 +1,5 @@
-// The page of a campaign where something was not measured or not asked for, and tables with a long path.
+// The page of a campaign where something was not measured or not asked for, and tables with a long
+// path.
 #include <gmock/gmock.h>
 
 #include "app/pages/campaign_report.h"

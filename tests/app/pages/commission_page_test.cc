@@ -1,4 +1,5 @@
-// What a commissioning promises: shorts that leave the learnt bands, in closed form, and how it is told.
+// What a commissioning promises: shorts that leave the learnt bands, in closed form, and how it is
+// told.
 #include "app/pages/commission_report.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// A detector study as text, JSON and page, from curves written by hand: what is told is what they hold.
+// A detector study as text, JSON and page, from curves written by hand: what is told is what they
+// hold.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Tables of the explain report and what all reports of discovery share, from explanations written by hand.
+// Tables of the explain report and what all reports of discovery share, from explanations written
+// by hand.
 #include "app/pages/explain_tables.h"
 
 #include <fmt/format.h>
@@ -134,7 +135,8 @@ Unexplained Law(const std::string& formula, const std::string& where,
   return u;
 }
 
-// Functions, numbers and what the simulator knows are no parameters; the law's own hints are values.
+// Functions, numbers and what the simulator knows are no parameters; the law's own hints are
+// values.
 TEST(FormulaSnippetText, DeclaresEveryFreeLetterOnce) {
   const std::string text = FormulaSnippet(Law(
       "force = { x = \"-kxx*x - kxy*y + 2.5e-3*sin(theta)\", y = \"-kxy*x\" }  # kxx = 4200 N/m",
@@ -186,7 +188,8 @@ TEST(ExplainText, NamesThatASetLeavesOpen) {
   EXPECT_EQ(DoubtText(e), "more than one effect remains");
 }
 
-// A probability of 1.000 among the candidates is no adoption: the terminal says why not, as the page does.
+// A probability of 1.000 among the candidates is no adoption: the terminal says why not, as the
+// page does.
 TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
   Explanation e;
   e.ranking = {Ranked(Gain(1.08, 0.002), 1, 3.5)};
@@ -225,7 +228,8 @@ TEST(DiscoveryParts, TheLadderNamesEveryStep) {
       HasSubstr("\"xanchor\":\"left\""));  // "noise" stands beside the bars, not on the last one
 }
 
-// The colours of two maps that are to be compared end at one value; numbers are printed where they fit.
+// The colours of two maps that are to be compared end at one value; numbers are printed where they
+// fit.
 TEST(DiscoveryParts, RatioMapsShareTheirColours) {
   const std::vector<std::vector<double>> values = {{1, 30}, {2, std::nan("")}};
   Figure f = RatioFigure({"A.x", "A.y"}, {"r1", "r2"}, values, "map");

@@ -1,5 +1,5 @@
-// Results of practice cases: the journal's line reads back as it was written; the page says what was
-// counted.
+// Results of practice cases: the journal's line reads back as it was written; the page says what
+// was counted.
 #include "app/pages/practice_page.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// What is left of a bearing after coil failures, in words, on the page: from figures that are written down.
+// What is left of a bearing after coil failures, in words, on the page: from figures that are
+// written down.
 #include "app/pages/redistribute_report.h"
 
 #include <gmock/gmock.h>
@@ -114,7 +115,8 @@ TEST(RedistributionPage, SaysTheSameAsTheScreen) {
   EXPECT_THAT(words, HasSubstr("\nworst [N]\n"));
 }
 
-// A drawing of the poles and one of the forces for each set; a set without a map draws none of its own.
+// A drawing of the poles and one of the forces for each set; a set without a map draws none of its
+// own.
 TEST(RedistributionPage, HasPicturesOfEverySetWhileTheyAreFew) {
   const std::string html = RedistributePage(Figures());
   EXPECT_EQ(CountOf(html, "<figure id="), 4u);
@@ -128,7 +130,8 @@ TEST(RedistributionPage, HasPicturesOfEverySetWhileTheyAreFew) {
   EXPECT_THAT(testing::Words(table), Not(HasSubstr("Pictures")));
 }
 
-// The closed outline stands about the load: its rightmost point is the load and the reach to the right.
+// The closed outline stands about the load: its rightmost point is the load and the reach to the
+// right.
 TEST(RedistributionPage, ForcesAreDrawnFromTheLoad) {
   RedistributionFigures f = Figures();
   f.load = {3, -20};

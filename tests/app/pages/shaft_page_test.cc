@@ -1,4 +1,5 @@
-// The page, the figures and the JSON of a shaft's analysis, on a rotor whose numbers are known by hand.
+// The page, the figures and the JSON of a shaft's analysis, on a rotor whose numbers are known by
+// hand.
 #include "app/pages/shaft_report.h"
 
 #include <gmock/gmock.h>
@@ -103,7 +104,8 @@ TEST(ShaftFigures, TheOutlineIsDrawnAtBothSidesInMillimetres) {
   EXPECT_EQ(LineNamed(f, "supports")["x"], Json({0, 1.2}));
 }
 
-// The page shows x along (-0.55 0.82, -0.55 0.57) and y upwards; a shaft is 3.2 largest deflections long.
+// The page shows x along (-0.55 0.82, -0.55 0.57) and y upwards; a shaft is 3.2 largest deflections
+// long.
 TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   const ShaftAnalysis& a = WholeAnalysis();
   const Figure f = ShaftModesFigure(a);
@@ -139,8 +141,9 @@ TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   EXPECT_EQ(still["y"], frames[0]["data"][0]["y"]);
 }
 
-// Between its nodes the line is the element's own shape: a light shaft with a disk in its middle bends as under a load
-// there, by 3 t - 4 t³ at t = z/L from the support; left over is the shaft's own mass, 1 g of 10 kg, and the page's digits.
+// Between its nodes the line is the element's own shape: a light shaft with a disk in its middle
+// bends as under a load there, by 3 t - 4 t³ at t = z/L from the support; left over is the shaft's
+// own mass, 1 g of 10 kg, and the page's digits.
 TEST(ShaftFigures, ShapesBendBetweenTheNodes) {
   BeamFile file = testing::JeffcottShaft(1e9, 400);
   ShaftSection& shaft = file.definition.sections[0];

@@ -1,5 +1,5 @@
-// Pages of campaigns and of crosschecks from rows and runs written by hand: what a reader is told, and
-// that a browser builds every figure.
+// Pages of campaigns and of crosschecks from rows and runs written by hand: what a reader is told,
+// and that a browser builds every figure.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Bad uses of the commands round a case, a bench and an export, and of records of other kinds: exit code 2, one line
-// that names option or file and what is allowed, nothing written.
+// Bad uses of the commands round a case, a bench and an export, and of records of other kinds: exit
+// code 2, one line that names option or file and what is allowed, nothing written.
 #include "tests/cli/work_folder.h"
 
 namespace ambrig {
@@ -130,7 +130,8 @@ TEST_F(Outputs, FilesOfAHiddenCaseAreMarked) {
     EXPECT_TRUE(ReadText(folder_ / file).starts_with("# made by ambrig hide\n")) << file;
 }
 
-// Readings that never move are left out; where nothing else was measured there is no answer, least of all agreement.
+// Readings that never move are left out; where nothing else was measured there is no answer, least
+// of all agreement.
 TEST_F(Outputs, NothingMeasuredIsNoAgreement) {
   std::string rows = "t,A.x\n";
   for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";

@@ -1,5 +1,5 @@
-// A controller in a process of its own: what it is given, what it gives, and how everything that it can
-// do wrong is told in one sentence.
+// A controller in a process of its own: what it is given, what it gives, and how everything that it
+// can do wrong is told in one sentence.
 #include "control/external/external_controller.h"
 
 #include <sys/socket.h>
@@ -196,7 +196,8 @@ TEST(ExternalController, EachHasStaticDataOfItsOwn) {
   EXPECT_NE(fa[0], fb[0]);
 }
 
-// Random readings, references, excitations, small and far beyond the limits: the same bits each period.
+// Random readings, references, excitations, small and far beyond the limits: the same bits each
+// period.
 TEST(ExternalController, ThePidInCIsThePid) {
   const PidParameters p{4e5, 900, 6e6, 1.5e-4, 60};
   PidParameters second = p;

@@ -146,8 +146,8 @@ TEST(ExternalRun, ARunEndsWithOneLineAndTheNextOneGoesOn) {
   EXPECT_GT(ReadHdf5(f.File("out/second.h5")).channels.size(), 10u);
 }
 
-// Coil A3 breaks under a load of 20 N and nobody but the controller in C looks: with it the rotor does
-// not touch its auxiliary bearing, with the PID it falls onto it.
+// Coil A3 breaks under a load of 20 N and nobody but the controller in C looks: with it the rotor
+// does not touch its auxiliary bearing, with the PID it falls onto it.
 TEST(ExternalRun, TheFaultTolerantOneCarriesOnWithSevenCoils) {
   const CampaignFolder f;
   f.Write("pid.toml", RigText(LibraryLines("pid", kExternalGains)));

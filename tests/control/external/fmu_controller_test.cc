@@ -1,5 +1,5 @@
-// A controller that is an FMU: the bits of the same law as a library, in both versions of FMI, and what
-// an FMU can do wrong.
+// A controller that is an FMU: the bits of the same law as a library, in both versions of FMI, and
+// what an FMU can do wrong.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

@@ -36,7 +36,8 @@ double Farthest(const Poles& wanted, Poles found) {
 const StateFeedbackGains kAxisGains{4e5, 900, 0, 2.1, 1.5e5, 400, 0.8};
 constexpr double kTick = 8e-5;  // [s]
 
-// x'' = (k/m) x: the matrix is exp of [[0, 1], [k/m, 0]] Ts, its determinant 1; B = ∫ exp dt (0, 1/m).
+// x'' = (k/m) x: the matrix is exp of [[0, 1], [k/m, 0]] Ts, its determinant 1; B = ∫ exp dt (0,
+// 1/m).
 TEST(StateFeedback, AxisIsSampledExactly) {
   for (const double k : {1.5e5, 0.0, -2e5}) {
     const SampledAxis s = SampleAxis(2.1, k, kTick);
@@ -49,7 +50,8 @@ TEST(StateFeedback, AxisIsSampledExactly) {
   }
 }
 
-// Separation: with the force acting one period late, the poles are those of A - B K, of the observer, and 0.
+// Separation: with the force acting one period late, the poles are those of A - B K, of the
+// observer, and 0.
 TEST(StateFeedback, PolesAreThoseOfTheFeedbackAndOfTheObserver) {
   const StateFeedbackGains& g = kAxisGains;
   const SampledAxis plant = SampleAxis(g.mass, g.negative_stiffness, kTick);

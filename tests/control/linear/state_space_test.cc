@@ -49,7 +49,8 @@ TEST(StateSpace, AppendedSystemsDoNotFeelEachOther) {
   EXPECT_EQ(r.bottomLeftCorner(2, 2).norm(), 0);
 }
 
-// det(z - A_loop) = det(z - A_P) det(z - A_K) det(1 - P K): the poles are where the loop gain is one.
+// det(z - A_loop) = det(z - A_P) det(z - A_K) det(1 - P K): the poles are where the loop gain is
+// one.
 TEST(StateSpace, PolesOfALoopAreWhereItsGainIsOne) {
   StateSpace P = System(1, 1, 1), K = System(1, 1, 2);
   P.D.setZero();
@@ -60,8 +61,8 @@ TEST(StateSpace, PolesOfALoopAreWhereItsGainIsOne) {
   EXPECT_NEAR(SpectralRadius(A), A.eigenvalues().cwiseAbs().maxCoeff(), 1e-12);
 }
 
-// 1/(s + a) through s = c (z - 1)/(z + 1): the response at z is that at s; prewarped at w they agree
-// there with the continuous one.
+// 1/(s + a) through s = c (z - 1)/(z + 1): the response at z is that at s; prewarped at w they
+// agree there with the continuous one.
 TEST(StateSpace, TheBilinearMapKeepsResponses) {
   const double a = 300, Ts = 1e-3, w = 800;
   StateSpace continuous;

@@ -1,4 +1,5 @@
-/// Damaged files that a fuzz target once found (tests/fuzz/findings/TARGET), read again by the reader of that target.
+/// Damaged files that a fuzz target once found (tests/fuzz/findings/TARGET), read again by the
+/// reader of that target.
 #include <gtest/gtest.h>
 
 #include <filesystem>

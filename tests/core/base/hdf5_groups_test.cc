@@ -1,4 +1,5 @@
-// Several records in one file: each comes back as it was, with its own rate; a missing group is said.
+// Several records in one file: each comes back as it was, with its own rate; a missing group is
+// said.
 #include <gmock/gmock.h>
 
 #include "core/base/errors.h"

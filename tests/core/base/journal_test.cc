@@ -72,8 +72,8 @@ TEST_F(JournalTest, DataAreWhereAppendSays) {
   EXPECT_EQ(data, "222");
 }
 
-// Cut anywhere: what was whole is found, what was cut off is one damaged entry, and the journal goes
-// on behind it.
+// Cut anywhere: what was whole is found, what was cut off is one damaged entry, and the journal
+// goes on behind it.
 TEST_F(JournalTest, CutAnywhere) {
   WriteThree();
   const std::string all = ReadBytes(Path());
@@ -126,7 +126,8 @@ TEST_F(JournalTest, IsAFile) {
             "cannot write " + Path() + ": not a regular file");
 }
 
-// A torn header is begun again; a file of somebody else's, even of one line without an end, is left alone.
+// A torn header is begun again; a file of somebody else's, even of one line without an end, is left
+// alone.
 TEST_F(JournalTest, OnlyATornHeaderIsBegunAgain) {
   for (const std::string& foreign :
        {std::string("mine"), std::string("work 2"), std::string("w o")}) {

@@ -47,7 +47,8 @@ TEST(TomlEdit, FilesBesideTheTextBecomeAbsolute) {
   EXPECT_EQ(WithAbsoluteFiles(out, "/else/rig.toml"), out);
 }
 
-// A person's file: comments, order, indentation, signs of more than one byte and Windows' line ends.
+// A person's file: comments, order, indentation, signs of more than one byte and Windows' line
+// ends.
 const std::string kWritten =
     "# Prüfstand  \xe2\x9c\x93 of the laboratory\n"
     "\n"

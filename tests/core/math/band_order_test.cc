@@ -10,7 +10,8 @@
 namespace ambrig {
 namespace {
 
-// A chain of unknowns numbered at random is a band of one again; two chains, tied at two places, one of two to three.
+// A chain of unknowns numbered at random is a band of one again; two chains, tied at two places,
+// one of two to three.
 TEST(BandOrder, FindsTheChain) {
   const int n = 60;
   std::vector<int> name(n);

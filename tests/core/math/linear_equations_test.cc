@@ -1,4 +1,5 @@
-// Solutions of linear equations by what defines them: residuals, normal equations, Penrose's conditions.
+// Solutions of linear equations by what defines them: residuals, normal equations, Penrose's
+// conditions.
 #include "core/math/linear_equations.h"
 
 #include <gtest/gtest.h>

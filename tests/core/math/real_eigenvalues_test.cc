@@ -1,4 +1,5 @@
-// Eigenvalues of real matrices without vectors, against Eigen's Schur decomposition and against closed forms.
+// Eigenvalues of real matrices without vectors, against Eigen's Schur decomposition and against
+// closed forms.
 #include "core/math/real_eigenvalues.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +36,8 @@ Eigen::VectorXcd EigenvaluesOf(const Eigen::MatrixXd& a) {
   return out;
 }
 
-// A backward stable method is exact for a matrix a few n eps |A| away; for these, of condition 1e3 at most,
-// that moves an eigenvalue by less than 1e-10 |A|.
+// A backward stable method is exact for a matrix a few n eps |A| away; for these, of condition 1e3
+// at most, that moves an eigenvalue by less than 1e-10 |A|.
 TEST(RealEigenvalues, AreThoseOfTheSchurDecomposition) {
   std::mt19937_64 draw(1);
   std::normal_distribution<double> normal;
@@ -47,8 +48,8 @@ TEST(RealEigenvalues, AreThoseOfTheSchurDecomposition) {
   }
 }
 
-// [[0, 1], [-w², -2 zeta w]] on the diagonal: s = -zeta w ± i w √(1 - zeta²), over six decades, mixed
-// by an orthogonal matrix.
+// [[0, 1], [-w², -2 zeta w]] on the diagonal: s = -zeta w ± i w √(1 - zeta²), over six decades,
+// mixed by an orthogonal matrix.
 TEST(RealEigenvalues, OfDampedOscillators) {
   const int n = 8;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -67,7 +68,8 @@ TEST(RealEigenvalues, OfDampedOscillators) {
   EXPECT_LT(Apart(EigenvaluesOf(q.transpose() * a * q), exact), 1e-12 * a.norm());
 }
 
-// The cyclic shift does not change under an unshifted QR step: without exceptional shifts it would go on for ever.
+// The cyclic shift does not change under an unshifted QR step: without exceptional shifts it would
+// go on for ever.
 TEST(RealEigenvalues, RootsOfUnityAndDefectiveMatrices) {
   const int n = 6;
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(n, n);

@@ -76,7 +76,8 @@ TEST_F(TextTables, AColumnOfWordsIsLeftOut) {
   ASSERT_EQ(r.channels.size(), 1U);
   EXPECT_THAT(r.channels[0].samples, ElementsAre(1, 2, 3));
   EXPECT_THAT(r.notes, ElementsAre(HasSubstr("state holds words, left out")));
-  // A word among numbers, whichever comes first, is a mistake; so are times in words and bad numbers.
+  // A word among numbers, whichever comes first, is a mistake; so are times in words and bad
+  // numbers.
   EXPECT_EQ(Error("t,x\n0,1\n1,off\n"), ":3:3: x: 'off' is not a number");
   EXPECT_EQ(Error("t,x\n0,off\n1,2\n"), ":2:3: x: 'off' is not a number");
   EXPECT_EQ(Error("t,x\nsoon,1\nlater,2\n"), ":2:1: t: 'soon' is not a number");

@@ -57,7 +57,8 @@ TEST(CalibrationOfNames, OverconfidenceIsFound) {
   EXPECT_NEAR(p[2], 0.2, 0.03);
 }
 
-// The fit is the least of |w - "as computed"|²/(2 2²) - Σ ln p(right): no small step from there makes it less.
+// The fit is the least of |w - "as computed"|²/(2 2²) - Σ ln p(right): no small step from there
+// makes it less.
 TEST(CalibrationOfNames, TheFitIsTheMostProbable) {
   std::vector<CalibrationCase> cases;
   for (int k = 0; k < 7; ++k) {

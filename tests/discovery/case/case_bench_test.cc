@@ -1,4 +1,5 @@
-// What a case says of frequency responses and tables: units, weights, and every mistake in one line.
+// What a case says of frequency responses and tables: units, weights, and every mistake in one
+// line.
 #include "discovery/case/response_record.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// Columns of a logger's file as channels of the rig: names, units, gains, delays, and what is left out.
+// Columns of a logger's file as channels of the rig: names, units, gains, delays, and what is left
+// out.
 #include "discovery/case/case_channels.h"
 
 #include <gmock/gmock.h>
@@ -79,7 +80,8 @@ TEST_F(CaseChannels, ANamedColumnHasItsUnitAndGain) {
   EXPECT_THAT(case_.notes[0], HasSubstr("left out: room temperature"));
 }
 
-// As MATLAB, a viewer of HDF5 files or the head of a CSV file writes the name; an own name of the file comes first.
+// As MATLAB, a viewer of HDF5 files or the head of a CSV file writes the name; an own name of the
+// file comes first.
 TEST_F(CaseChannels, AColumnMayBeSpeltAsOtherProgramsShowIt) {
   for (const char* name : {"A_i1", "/A/i1", "A.i1 [mA]", "A.i1"}) {
     const Record r = Mapped(std::string("\"A.i2\" = \"") + name + "\"\n");

@@ -47,7 +47,8 @@ TEST_F(LeaveOut, RowsOfTheSpansHaveNoNumber) {
     EXPECT_EQ(std::isnan(x->samples[k]), (k >= 4 && k <= 7) || k == 15) << k;
 }
 
-// 20 rows, of which the logger lost six while its clock went on: they are told until the case knows of them.
+// 20 rows, of which the logger lost six while its clock went on: they are told until the case knows
+// of them.
 TEST_F(LeaveOut, RowsThatALoggerLostAreTold) {
   std::string rows = "t [s],A.x [um]\n";
   for (int k = 0; k < 26; ++k)

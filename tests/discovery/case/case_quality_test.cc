@@ -98,7 +98,8 @@ TEST_F(CaseQuality, AHoleInWhatWasCommandedIsRefused) {
   EXPECT_NE(text.find("4.99 s"), std::string::npos) << text;
 }
 
-// 12 s of a scenario, and 24 s of which nothing is known: of another scenario, or a logger that was stopped late.
+// 12 s of a scenario, and 24 s of which nothing is known: of another scenario, or a logger that was
+// stopped late.
 TEST_F(CaseQuality, ARecordLongerThanItsScenario) {
   Edit([](int, int column, const std::string& cell) {
     return column == kTime ? std::to_string(3 * std::stod(cell)) : cell;
@@ -119,7 +120,8 @@ TEST_F(CaseQuality, ARecordLongerThanItsScenario) {
   EXPECT_TRUE(lengths(Read()).empty()) << told[0].mend;
 }
 
-// A logger with a trigger writes what was before it, and one that is stopped by hand what comes after.
+// A logger with a trigger writes what was before it, and one that is stopped by hand what comes
+// after.
 TEST_F(CaseQuality, ALittleBeforeAndAfterAScenarioIsLeftOut) {
   Edit([](int, int column, const std::string& cell) {
     return column == kTime ? std::to_string(1.08 * std::stod(cell) - 0.5) : cell;

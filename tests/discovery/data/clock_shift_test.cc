@@ -1,4 +1,5 @@
-// Records whose clock is whole rows off: their rows are moved back, the verdict is that of the right clock.
+// Records whose clock is whole rows off: their rows are moved back, the verdict is that of the
+// right clock.
 #include "discovery/data/clock_shift.h"
 
 #include <gmock/gmock.h>

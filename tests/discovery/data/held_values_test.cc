@@ -48,7 +48,8 @@ TEST(UsualHold, IsOneWhereNothingRepeatsAndTheConvertersStepOtherwise) {
   EXPECT_EQ(UsualHold(stepped), 6u);
 }
 
-// A reading of 12.5 kHz in a record of 75 kHz; a converter's steps and a frozen logger are not regular.
+// A reading of 12.5 kHz in a record of 75 kHz; a converter's steps and a frozen logger are not
+// regular.
 TEST(RegularHold, IsThatOfAReadingThatAFasterRecordRepeats) {
   EXPECT_EQ(RegularHold(Moving(500)), 1u);
   std::vector<double> held;
@@ -70,7 +71,8 @@ TEST(FrozenStretch, IsFarLongerThanTheUsualOnes) {
   EXPECT_EQ(FrozenStretch(Held(Moving(1000), 300, 19)).count, 0u);
 }
 
-// Where the converter holds each value for six rows, sixty rows are nothing unusual, two hundred are.
+// Where the converter holds each value for six rows, sixty rows are nothing unusual, two hundred
+// are.
 TEST(FrozenStretch, OfAStepwiseColumnMustBeLonger) {
   std::vector<double> stepped;
   for (const double v : Moving(400)) stepped.insert(stepped.end(), 6, v);

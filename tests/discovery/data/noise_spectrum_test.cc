@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kRowsOfStretch = 1024;
 
-/// White noise of rms 1 behind two equal low-passes (share of a row's difference that is followed), which leave it `rms`.
+/// White noise of rms 1 behind two equal low-passes (share of a row's difference that is followed),
+/// which leave it `rms`.
 std::vector<ErrorStretch> NoiseInStretches(std::size_t count, double follow, double rms) {
   std::vector<double> all;
   double a = 0, b = 0, square = 0;

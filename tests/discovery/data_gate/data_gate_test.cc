@@ -85,7 +85,8 @@ TEST_P(DataGateFinds, TheMistakeAndNothingElse) {
   }
 }
 
-// What the data-quality pass left out because it stands still is named too, but not of a clamped rotor, which may stand.
+// What the data-quality pass left out because it stands still is named too, but not of a clamped
+// rotor, which may stand.
 TEST(DataGate, AStuckColumnThatWasLeftOutIsNamed) {
   for (const char* record : {kStepRecord, kClampedRecord}) {
     Case c = Measured();
@@ -139,8 +140,8 @@ TEST(DataGate, ZerosOfHeldSensorsAreNoExchange) {
   }
 }
 
-// A force that takes the weight off, or more, gives currents that look like others' or like their own with a factor. Their
-// set-points ask for what they show, and the rest of the bearing errs too.
+// A force that takes the weight off, or more, gives currents that look like others' or like their
+// own with a factor. Their set-points ask for what they show, and the rest of the bearing errs too.
 TEST(DataGate, AForceOfTheOtherSignIsNoMistake) {
   for (const double force : {30.0, 36.0, 44.0, 48.0}) {
     EffectInstance load = MakeInstance(EffectNamed("constant-load"), "A");
@@ -161,8 +162,9 @@ TEST(DataGate, TwoCoilsExchangedWithTheirSetPoints) {
   for (const DataFault& f : faults) EXPECT_EQ(f.fault, "swap") << FaultText(f);
 }
 
-// One column that runs ahead from some instant on shows what the machine did, for example a load that a rub carries in the
-// magnet's place, unless it shows exactly what the model expects some rows later.
+// One column that runs ahead from some instant on shows what the machine did, for example a load
+// that a rub carries in the magnet's place, unless it shows exactly what the model expects some
+// rows later.
 TEST(DataGate, OneColumnLosesRowsOnlyIfTheRestFits) {
   for (const double size : {1.0, 0.8}) {
     Case c = Measured();
@@ -181,7 +183,8 @@ TEST(DataGate, OneColumnLosesRowsOnlyIfTheRestFits) {
   }
 }
 
-// A record faster than the controller repeats every reading; one that stands still for far longer is frozen.
+// A record faster than the controller repeats every reading; one that stands still for far longer
+// is frozen.
 TEST(DataGate, AFrozenReadingIsFoundWhereEveryReadingIsRepeated) {
   for (const bool frozen : {false, true}) {
     Case c = Measured();
@@ -206,7 +209,8 @@ TEST(DataGate, LonelyReadingsCannotBe) {
   }
 }
 
-// Flat tops are those of a converter also where the model does not reach them: beside an effect it may expect anything.
+// Flat tops are those of a converter also where the model does not reach them: beside an effect it
+// may expect anything.
 TEST(DataGate, FlatTopsThatTheModelDoesNotReach) {
   Case c = Measured();
   std::vector<double>& y = SamplesOf(c, kStepRecord, "A.x");
@@ -221,7 +225,8 @@ TEST(DataGate, FlatTopsThatTheModelDoesNotReach) {
   EXPECT_EQ(faults[0].channel, "A.x");
 }
 
-// The top of a ramp is the column's own extreme: a logger that freezes there does not stand at a limit.
+// The top of a ramp is the column's own extreme: a logger that freezes there does not stand at a
+// limit.
 TEST(DataGate, AFreezeAtTheTopOfARampIsNoLimit) {
   Case c = Measured();
   std::vector<double>& i = SamplesOf(c, kClampedRecord, "A.i6");

@@ -1,5 +1,6 @@
 #pragma once
-/// Records of the reference rig for the data gate, "measured" by the model itself with noise of another seed.
+/// Records of the reference rig for the data gate, "measured" by the model itself with noise of
+/// another seed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +36,8 @@ inline Case MeasuredBy(const Hypothesis& truth, Case c) {
   return c;
 }
 
-/// Two records as a logger writes them: steps at rest, and clamped current ramps; with `third` one more.
+/// Two records as a logger writes them: steps at rest, and clamped current ramps; with `third` one
+/// more.
 inline Case Measured(const std::vector<EffectInstance>& effects = {}, double mass_shift = 0,
                      const std::string& third = "") {
   std::vector<ExaminationRecord> chosen;

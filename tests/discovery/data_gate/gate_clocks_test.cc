@@ -1,4 +1,5 @@
-// Clocks: of the record, of the columns of one kind, and blocks of rows that are missing, some of them beside an effect.
+// Clocks: of the record, of the columns of one kind, and blocks of rows that are missing, some of
+// them beside an effect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,7 +69,8 @@ TEST(GateClocks, OneColumnThatIsLateAndNothingElse) {
   EXPECT_NEAR(faults[0].seconds, 8e-4, 1e-4);
 }
 
-// One converter module, one bearing's electronics, one amplifier of load cells: all of their columns are late, no other is.
+// One converter module, one bearing's electronics, one amplifier of load cells: all of their
+// columns are late, no other is.
 TEST(GateClocks, TheColumnsOfOneConverter) {
   struct Group {
     const char* record;
@@ -118,7 +120,8 @@ TEST(GateClocks, ADelayInTheLoopIsNoClock) {
   EXPECT_TRUE(FaultsOf(Measured({e}, 0, kMultisine)).empty());
 }
 
-// A block of 0.5 ms is less than what a fit may find as a shift of all rows, but it is missing in the middle.
+// A block of 0.5 ms is less than what a fit may find as a shift of all rows, but it is missing in
+// the middle.
 TEST(GateClocks, AShortBlockThatIsMissing) {
   Case c = Measured();
   const std::size_t record = RecordNamed(c, testing::kClampedRecord);
@@ -153,7 +156,8 @@ Case BesideAnotherMovement(double share) {
   return c;
 }
 
-// What the model lacks leaves an error that no shift removes: a clock that is wrong by 12 ms is seen all the same.
+// What the model lacks leaves an error that no shift removes: a clock that is wrong by 12 ms is
+// seen all the same.
 TEST(GateClocks, ALateRecordBesideAnEffect) {
   for (const bool late : {false, true}) {
     Case c = BesideAnotherMovement(0.1);

@@ -1,4 +1,5 @@
-// Columns that a scenario commands and no model predicts: set-points of a held rotor, the angle of a prescribed speed.
+// Columns that a scenario commands and no model predicts: set-points of a held rotor, the angle of
+// a prescribed speed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +34,8 @@ TEST(GateCommands, SetPointsOfAHeldRotor) {
   ExpectOnly(FaultsOf(c), "swap", "A.s2");
 }
 
-// Commands that were larger than the scenario says are what the amplifiers did: the currents show them, too.
+// Commands that were larger than the scenario says are what the amplifiers did: the currents show
+// them, too.
 TEST(GateCommands, ACommandThatTheCurrentFollowsIsNoMistakeOfTheLogger) {
   Case c = Measured();
   for (const char* channel : {"A.s3", "A.i3"})
@@ -41,7 +43,8 @@ TEST(GateCommands, ACommandThatTheCurrentFollowsIsNoMistakeOfTheLogger) {
   for (const DataFault& f : FaultsOf(c)) EXPECT_NE(f.channel, "A.s3") << FaultText(f);
 }
 
-// Measured positions that drive a record are predicted by nothing: millimetres read as metres lie outside the machine.
+// Measured positions that drive a record are predicted by nothing: millimetres read as metres lie
+// outside the machine.
 TEST(GateCommands, DrivesOfARecordThatCannotBe) {
   for (const bool wrong : {false, true}) {
     Case c = Measured();

@@ -1,4 +1,5 @@
-// Columns that hold nothing in a whole record are named as such, with the line that leaves out the column alone.
+// Columns that hold nothing in a whole record are named as such, with the line that leaves out the
+// column alone.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ using testing::kStepRecord;
 using testing::Measured;
 using testing::RecordNamed;
 
-/// The measured case with this value throughout in a column of the steps, as a case file would read it.
+/// The measured case with this value throughout in a column of the steps, as a case file would read
+/// it.
 Case Holding(const std::string& channel, double value) {
   Case c = Measured();
   CaseRecord& r = c.records[RecordNamed(c, kStepRecord)];

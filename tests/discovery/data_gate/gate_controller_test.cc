@@ -1,4 +1,5 @@
-// The controller's program as a witness: commands that are not the scenario's, readings and commands that come late.
+// The controller's program as a witness: commands that are not the scenario's, readings and
+// commands that come late.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What the rig does differently is no error of the data: every effect of the catalogue at its largest usual size, of either
-// sign, at its first place.
+// What the rig does differently is no error of the data: every effect of the catalogue at its
+// largest usual size, of either sign, at its first place.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace ambrig {
 namespace {
 
-/// The effect with each size `sign` times its largest usual distance from nothing; sizes that cannot be stay in their
-/// bounds.
+/// The effect with each size `sign` times its largest usual distance from nothing; sizes that
+/// cannot be stay in their bounds.
 EffectInstance Largest(const EffectDescription& d, const std::string& target, double sign) {
   EffectInstance e = MakeInstance(d, target);
   for (std::size_t k = 0; k < e.table.size(); ++k) {

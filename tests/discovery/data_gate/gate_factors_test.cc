@@ -1,4 +1,5 @@
-// Factors that bring a column back to the model: units of speed, of a level and of a movement; and hum, which is none.
+// Factors that bring a column back to the model: units of speed, of a level and of a movement; and
+// hum, which is none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +19,8 @@ using testing::RadialRig;
 using testing::RecordNamed;
 using testing::SamplesOf;
 
-/// A column times each factor is named as one in another unit, and nothing else is. A factor of a list is found as it
-/// is, any other one is fitted to this share.
+/// A column times each factor is named as one in another unit, and nothing else is. A factor of a
+/// list is found as it is, any other one is fitted to this share.
 void ExpectUnits(const char* record, const std::string& channel, const std::vector<double>& factors,
                  double share = 1e-6) {
   const Case sound = Measured({}, 0, record);
@@ -125,8 +126,8 @@ TEST(GateFactors, AMovingColumnShowsAnyFactorThatNoSensorHas) {
   ExpectUnits(kStepRecord, "A.x", {0.3, 3.3}, 0.05);
 }
 
-// Micrometres without a unit: the file rounds such numbers more coarsely than the shaft moves, and a prefix of a thousand
-// leaves little as well.
+// Micrometres without a unit: the file rounds such numbers more coarsely than the shaft moves, and
+// a prefix of a thousand leaves little as well.
 TEST(GateFactors, APositionInAFarUnitShowsWhichOne) {
   ExpectUnits(kStepRecord, "A.x", {1e3, 1e4, 1e5, 1e6, 1e9});
   ExpectUnits("multisine at 60 Hz", "A.y", {1e3, 1e6});
@@ -144,7 +145,8 @@ TEST(GateFactors, AllPositionsInMicrometresAreNamedWithTheirUnit) {
   }
 }
 
-// A coil's bias with little movement, another one in each run: a coil that had such a current would move the others.
+// A coil's bias with little movement, another one in each run: a coil that had such a current would
+// move the others.
 TEST(GateFactors, ALevelShowsAnyFactorThatNoSensorHas) {
   ExpectUnits(kStepRecord, "A.i2", {0.061, 4.07}, 0.02);
   ExpectUnits("multisine at 60 Hz", "A.i4", {0.3, 4.07}, 0.02);
@@ -175,8 +177,9 @@ TEST(GateFactors, AZeroOfAHeldSensorIsNoFactor) {
   }
 }
 
-// Currents that are larger by the root of two make twice the force in both directions, and no other column of a held shaft
-// shows it. One cell alone is wrong, and so are both with a factor that no machine makes.
+// Currents that are larger by the root of two make twice the force in both directions, and no other
+// column of a held shaft shows it. One cell alone is wrong, and so are both with a factor that no
+// machine makes.
 TEST(GateFactors, ForcesOfBothDirectionsAreTheMachines) {
   const Case sound = Measured();
   const auto faults_of = [&](double fx, double fy) {

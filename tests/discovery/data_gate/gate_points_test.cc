@@ -60,7 +60,8 @@ std::string FileOf(const std::vector<double>& f, const std::vector<std::vector<C
   return text;
 }
 
-/// The record with a line that was pasted into its table, in place of what it says of the compliance.
+/// The record with a line that was pasted into its table, in place of what it says of the
+/// compliance.
 std::string WithLine(const std::string& line) {
   if (!line.starts_with("responses.")) {
     std::string record = kRecord;
@@ -71,7 +72,8 @@ std::string WithLine(const std::string& line) {
   return record.replace(at, record.find('\n', at) - at, line.substr(line.find('"')));
 }
 
-/// Faults told of the responses of the spindle with these effects, as `write` writes them; `line`: pasted into the record.
+/// Faults told of the responses of the spindle with these effects, as `write` writes them; `line`:
+/// pasted into the record.
 std::vector<DataFault> FaultsOfResponses(const Write& write,
                                          const std::vector<EffectInstance>& effects = {},
                                          double sd = 0.01, const std::string& line = "") {
@@ -118,7 +120,8 @@ TEST(GatePoints, SignsAndConjugates) {
   ExpectOfCompliance(OfCompliance([](double, Complex v) { return std::conj(v); }), "sign", -1);
 }
 
-/// The faults of the compliance that are told, and those that are left once the first line is in the case.
+/// The faults of the compliance that are told, and those that are left once the first line is in
+/// the case.
 void ExpectMended(const Write& write, const std::string& line) {
   const auto faults = FaultsOfResponses(write);
   ASSERT_EQ(faults.size(), 1U) << line;

@@ -30,7 +30,8 @@ void ExpectExchanged(const std::vector<DataFault>& faults, const std::string& ot
   EXPECT_GE(named.size(), 1U);
 }
 
-// The data of two scenarios exchanged: each record is said to be of the other's scenario, whether its speed shows it or not.
+// The data of two scenarios exchanged: each record is said to be of the other's scenario, whether
+// its speed shows it or not.
 TEST(GateScenario, DataOfAnotherScenarioAreNamedWithIt) {
   const char* kOther = "multisine at 60 Hz";
   Case c = Measured({}, 0, kOther);
@@ -68,7 +69,8 @@ void WithRate(CaseRecord& r, double rate) {
   }
 }
 
-// A logger's rate that is no part of the switching frequency: the other scenario is simulated at one that is.
+// A logger's rate that is no part of the switching frequency: the other scenario is simulated at
+// one that is.
 TEST(GateScenario, DataOfAnotherScenarioAreNamedAtAnyRate) {
   const char* kOther = "multisine at 60 Hz";
   Case c = Measured({}, 0, kOther);

@@ -21,8 +21,8 @@ using testing::WriteBytes;
 constexpr const char* kTable =
     "[[record]]\ndata = \"t.csv\"\nkind = \"static\"\nsd = { \"A.fx\" = 0.02, \"A.fy\" = 0.02 }\n";
 
-/// Faults told of a table of forces over positions and two currents; `write` changes a row before it is written:
-/// x [m], i1 [A], i3 [A], fx [N], fy [N].
+/// Faults told of a table of forces over positions and two currents; `write` changes a row before
+/// it is written: x [m], i1 [A], i3 [A], fx [N], fy [N].
 std::vector<DataFault> FaultsOfTable(const std::function<void(std::vector<double>&)>& write) {
   const TemporaryFolder folder;
   std::vector<std::vector<double>> rows;

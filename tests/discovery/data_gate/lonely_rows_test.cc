@@ -33,7 +33,8 @@ TEST(LonelyRows, NothingIsFoundInSoundRecords) {
   EXPECT_TRUE(Found(Measured({e})).rows.empty());
 }
 
-// Each is possible, and too small or in a channel that no limit bounds: no fault of the data that stops a search.
+// Each is possible, and too small or in a channel that no limit bounds: no fault of the data that
+// stops a search.
 TEST(LonelyRows, OneSampleOfAnyChannelIsLeftOutAndTold) {
   struct Glitch {
     const char *record, *channel;

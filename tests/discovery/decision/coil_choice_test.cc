@@ -58,7 +58,8 @@ TEST_F(CoilChoice, OneCoilFarBeyondTheSpreadIsLeftToBeNamed) {
   EXPECT_EQ(choice.doubt, 1);
 }
 
-// Eight errors of 2 sd each are believable, but not all of one sign: what they have in common is left.
+// Eight errors of 2 sd each are believable, but not all of one sign: what they have in common is
+// left.
 TEST_F(CoilChoice, WhatAllCoilsOfABearingShareIsLeftToBeNamed) {
   const CoilErrorChoice apart = Choose(Leaving({2, -2, 2, 2, -2, -2, 2, -2}));
   const CoilErrorChoice together = Choose(Leaving({2, 2.5, 2, 1.5, 2, 2, 1.5, 2.5}));
@@ -73,13 +74,15 @@ TEST_F(CoilChoice, WhatAllCoilsOfABearingShareIsLeftToBeNamed) {
               std::sqrt(7.0 / 8) * column.norm(), 1e-12 * column.norm());
 }
 
-// All coils far off together are no errors of single coils: they are weighed so little that they take hardly any of it.
+// All coils far off together are no errors of single coils: they are weighed so little that they
+// take hardly any of it.
 TEST_F(CoilChoice, WhatLooksLikeAllCoilsFarOffIsNotBelieved) {
   const CoilErrorChoice choice = Choose(Leaving({6, -6, 6, 6, -6, 6, 6, -6}));
   EXPECT_GT(choice.doubt, 2);
 }
 
-// What the coils can do alone, but with a parameter of the rig far beyond its tolerance, is not believed.
+// What the coils can do alone, but with a parameter of the rig far beyond its tolerance, is not
+// believed.
 TEST_F(CoilChoice, AParameterFarBeyondItsToleranceIsNotBelieved) {
   FitResult fit = Leaving({1, -1, 0.5, 2, -1.5, 0.2, -0.7, 1.1});
   FreeParameter gap;
@@ -106,8 +109,8 @@ TEST_F(CoilChoice, ParametersOfTheRigStandBesideThem) {
   fit.hypothesis.free = {gap};
   fit.jacobian = Eigen::Map<const Eigen::VectorXd>(fit.residual.data(), Rows());
   EXPECT_EQ(Choose(fit).doubt, 1);
-  // What a parameter of no prior to speak of can do too is known of the coils together as well as their prior says, of a
-  // single one beside the others as well as its rows do.
+  // What a parameter of no prior to speak of can do too is known of the coils together as well as
+  // their prior says, of a single one beside the others as well as its rows do.
   const auto sds = [&](const FitResult& now) {
     return SdOfCoilErrors(case_.model, possible_, now, static_cast<double>(Rows()), 1);
   };

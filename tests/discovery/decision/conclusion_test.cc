@@ -169,8 +169,8 @@ TEST_F(Conclusion, AContestedNameThatLeavesMuchIsWithdrawn) {
   }
 }
 
-// A pull that holds the shaft back is no motor's where much else stays too: a spring with play, a rub. Where it explains
-// nearly all it keeps its name, and a line says that no motor does this.
+// A pull that holds the shaft back is no motor's where much else stays too: a spring with play, a
+// rub. Where it explains nearly all it keeps its name, and a line says that no motor does this.
 TEST_F(Conclusion, APullOfTheWrongSignIsWithdrawnWhereMuchStays) {
   for (const double stiffness : {-4e4, 4e4})
     for (const double left : {1.0, 1.5, 2.5}) {

@@ -86,7 +86,8 @@ TEST(WorthAdopting, ASecondEffectIsNoDetailOfTheFirst) {
   EXPECT_TRUE(WorthAdopting(before, most, 100, 1, 400));  // explains most of what is left
 }
 
-// 1.03 -> 1.005 explains most of what is left, but no more than the detail of a first law that won 5.
+// 1.03 -> 1.005 explains most of what is left, but no more than the detail of a first law that won
+// 5.
 TEST(WorthAdopting, ASecondEffectWinsMoreThanTheFirstLawsDetail) {
   const FitResult before = FitWith(1.03, 1.03), after = FitWith(1.005, 1.005);
   EXPECT_FALSE(WorthAdopting(before, after, 100, 1, 5));
@@ -104,7 +105,8 @@ TEST(WorthAdopting, BringsParametersBackToWhereTheyMayBe) {
 }
 
 // A better fit of the unseen records, or a larger gain, never turns a yes into a no.
-// Beside nuisances that nobody declared: the noise is reached on all records, and no other candidate gains a tenth as much.
+// Beside nuisances that nobody declared: the noise is reached on all records, and no other
+// candidate gains a tenth as much.
 TEST(ClosesAlone, NoiseIsLeftAndNoOtherCandidateComesNear) {
   const FitResult before = FitWith(1.011, 1.028), after = FitWith(0.992, 1.001);
   EXPECT_TRUE(ClosesAlone(before, after, 183, -2.4));

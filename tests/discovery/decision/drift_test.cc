@@ -1,4 +1,5 @@
-// Corrections of one parameter, record by record: constant ones hold, others are told by chi-squared.
+// Corrections of one parameter, record by record: constant ones hold, others are told by
+// chi-squared.
 #include "discovery/decision/drift_test.h"
 
 #include <gtest/gtest.h>

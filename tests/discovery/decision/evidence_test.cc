@@ -24,7 +24,8 @@ TEST(HasSize, NeedsThreeOfItsOwnSd) {
   EXPECT_FALSE(HasSize(Gain(1.0, 0)));
 }
 
-// A size that does not show, beside sizes that the records tell: only what is told says whether the effect is there.
+// A size that does not show, beside sizes that the records tell: only what is told says whether the
+// effect is there.
 TEST(HasSize, SizesThatDoNotShowSayNothingBesideOthers) {
   EffectInstance e = MakeInstance(EffectNamed("amplifier-offset"), "B");
   e.Set("offset", 0.07);
@@ -76,8 +77,8 @@ TEST(HasSize, ANullOfInfinityIsAwayWhenTheInverseIs) {
   EXPECT_FALSE(HasSize(e));
 }
 
-// A slow rise tells the quotient of size and time constant: each alone is unknown, and yet something is
-// there.
+// A slow rise tells the quotient of size and time constant: each alone is unknown, and yet
+// something is there.
 TEST(HasSize, ASizeThatGoesWithATimeConstantIsJudgedWithThatHeld) {
   EffectInstance e = MakeInstance(EffectNamed("copper-heating"), "B");
   e.Set("rise_per_watt", 200);

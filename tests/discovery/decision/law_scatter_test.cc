@@ -45,7 +45,8 @@ TEST(SdUnderDoubt, OfTheRightLawIsThatOfTheFit) {
   EXPECT_NEAR(SdUnderDoubt(c.model, fit, kScatterN)[0], fit.sd[0], 1e-3 * fit.sd[0]);
 }
 
-// The data have an offset, the law is a gain: each record asks for its own, o/x beside what was fitted.
+// The data have an offset, the law is a gain: each record asks for its own, o/x beside what was
+// fitted.
 TEST(SdUnderDoubt, OfAnotherLawHasTheSpreadOfWhatEachRecordAsksFor) {
   const double o = 7e-6;
   const LinearCase c(kScatterX, 1, o);
@@ -75,13 +76,15 @@ TEST(SdUnderDoubt, OfAnotherLawHasTheSpreadOfWhatEachRecordAsksFor) {
   EXPECT_GT(sd, 2 * fit.sd[0]);
 }
 
-// Where the parts of the records agree on a wrong value their spread says nothing: the error that the law leaves does.
+// Where the parts of the records agree on a wrong value their spread says nothing: the error that
+// the law leaves does.
 TEST(SdUnderDoubt, OfALawThatLeavesMuchIsThatOfFewNumbers) {
   const LinearCase c(kScatterX, 1.08, 0);
   FitResult fit = FittedGain(c);
   constexpr double kMany = 1e4;
   fit.ratio_fit = 1;
-  // at the noise: that of the fit, and what noise of so many numbers does not explain of the blocks' spread
+  // at the noise: that of the fit, and what noise of so many numbers does not explain of the
+  // blocks' spread
   const double between = std::pow(SdUnderDoubt(c.model, fit, kMany)[0], 2) - std::pow(fit.sd[0], 2);
   EXPECT_GE(between, 0);
   fit.ratio_fit = 1.3;

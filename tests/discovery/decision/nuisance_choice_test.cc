@@ -41,7 +41,8 @@ class NuisanceChoiceTest : public ::testing::Test {
   LinearCase case_{{2e-5, 4e-5, 6e-5, 5e-5}, 1, 0};
 };
 
-// Of an offset r in n rows a zero of c floors per sd takes n c²/(n c² + 1/weight), record by record.
+// Of an offset r in n rows a zero of c floors per sd takes n c²/(n c² + 1/weight), record by
+// record.
 TEST_F(NuisanceChoiceTest, EliminationIsTheRidgeSolutionOfEachRecord) {
   Nuisances n;
   EXPECT_FALSE(n.any());
@@ -89,8 +90,8 @@ TEST_F(NuisanceChoiceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
   EXPECT_EQ(chosen[0].name, "zero of A.x");
 }
 
-// By hand: two records of information 3, one of 1; mean 1, q = 3 * 1 + 3 * 1 + 1 * 0. Variance (6 - 2)/(7 - 19/7) = 14/15,
-// weights 1/(1/3 + 14/15) and 1/(1 + 14/15).
+// By hand: two records of information 3, one of 1; mean 1, q = 3 * 1 + 3 * 1 + 1 * 0. Variance
+// (6 - 2)/(7 - 19/7) = 14/15, weights 1/(1/3 + 14/15) and 1/(1 + 14/15).
 TEST(SpreadOf, IsThatOfDerSimonianAndLaird) {
   const double w = 1 / (1 / 3.0 + 14 / 15.0), v = 1 / (1 + 14 / 15.0);
   const double square = w * (0 + 4) + v * 1, mean = (w * 2 + v) / (2 * w + v);
@@ -124,7 +125,8 @@ TEST_F(NuisanceChoiceTest, BesideEffectsAmountsOfOneSignThatExplainMostAreChosen
   EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, left, kWeight, true).empty());
 }
 
-// What moved the zeros of most sensors moves the others', too: these need to differ, but may have a mean of their own.
+// What moved the zeros of most sensors moves the others', too: these need to differ, but may have a
+// mean of their own.
 TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
   std::vector<double> left = Offsets({6, -6, 5, -4});  // in A.x
   const std::vector<double> of_y = {9, 7, 14, 12};
@@ -156,7 +158,8 @@ TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
   EXPECT_THAT(names({Zero(1), Zero(0), third}), ::testing::ElementsAre("zero of A.x"));
 }
 
-// What differs much is chosen although its mean is not nothing: an effect beside it may resemble it in every record.
+// What differs much is chosen although its mean is not nothing: an effect beside it may resemble it
+// in every record.
 TEST_F(NuisanceChoiceTest, AmountsThatDifferMuchAboutAMeanAreChosen) {
   EXPECT_EQ(ChooseNuisances(case_.model, {Zero(0)}, Offsets({14, 6, 12, -1}), kWeight).size(), 1u);
 }

@@ -46,7 +46,8 @@ TEST(ThinningTo, IsTheSameForRecordsOfLikeLengths) {
   EXPECT_EQ(ThinningTo(OfRows({50000, 30000, 40000}), 2000), (Thinning{12, 12, 12}));
 }
 
-// A pulse of 0.3 s beside hovers of a minute: it keeps a quarter of a record's mean share, or all that it has.
+// A pulse of 0.3 s beside hovers of a minute: it keeps a quarter of a record's mean share, or all
+// that it has.
 TEST(ThinningTo, AShortRecordIsNotLostBesideLongOnes) {
   const std::vector<std::size_t> thin = ThinningTo(OfRows({60000, 60000, 300, 3000}), 2000);
   EXPECT_EQ(thin[0], 61U);

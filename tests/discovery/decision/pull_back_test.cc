@@ -1,4 +1,5 @@
-// A rig parameter that an effect's parameter can replace goes back to its drawing; one that nothing replaces stays.
+// A rig parameter that an effect's parameter can replace goes back to its drawing; one that nothing
+// replaces stays.
 #include "discovery/decision/pull_back.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,9 @@ constexpr double kPlaceSd = 1e-3;  // [m] of the sensor's place
 constexpr double kPullN = 1e5;     // independent numbers: information far above the prior's
 constexpr double kZA = -0.12, kZB = 0.13;
 
-/// A shaft held at +x in A and -x in B: the reading of A.x is x (1 - 2 (z_s - z_A)/(z_B - z_A)). Where x is the
-/// same in all records, a place `shift` sd off and an offset of the sensor are the same thing.
+/// A shaft held at +x in A and -x in B: the reading of A.x is x (1 - 2 (z_s - z_A)/(z_B - z_A)).
+/// Where x is the same in all records, a place `shift` sd off and an offset of the sensor are the
+/// same thing.
 struct HeldTilted {
   HeldTilted(const std::vector<double>& x, double shift) : data(Make(x, shift)), model(data) {
     for (Target& t : model.targets()) t.floor = 4e-6;

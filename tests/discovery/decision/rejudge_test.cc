@@ -68,7 +68,8 @@ TEST(RankBeside, ANameThatIsOpenAloneIsDecidedBesideTheSecondEffect) {
   EXPECT_GT(beside[0].probability, 0.99);
   EXPECT_NEAR(beside[0].probability + beside[1].probability, 1, 1e-12);
   EXPECT_EQ(Named(beside[1].effect), "sensor-offset at A.x");
-  // Beside the offset of A.y, which stays: least squares of 0.3 x by a constant, to a short fit's 1 %.
+  // Beside the offset of A.y, which stays: least squares of 0.3 x by a constant, to a short fit's 1
+  // %.
   EXPECT_NEAR(beside[1].effect.Value("offset"), 0.3 * 4e-5, 0.01 * 0.3 * 4e-5);
   EXPECT_NEAR(FittedEffect(beside[1].fit, 1).Value("offset"), 5e-5, 0.01 * 5e-5);
 }

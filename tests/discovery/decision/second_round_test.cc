@@ -1,4 +1,5 @@
-// The last round of a search after its end: its names and probabilities agree with what was adopted.
+// The last round of a search after its end: its names and probabilities agree with what was
+// adopted.
 #include "discovery/decision/second_round.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +35,8 @@ TEST(SecondRound, OfWhichNothingWasAdoptedHasNoProbabilities) {
   EXPECT_THAT(SecondRoundTitle(e), HasSubstr("beside " + Named(e.adopted[0]) + ": none of them"));
 }
 
-// Beside all that was found names are judged again: that is what counts, and it is what the sets say.
+// Beside all that was found names are judged again: that is what counts, and it is what the sets
+// say.
 TEST(SecondRound, OfWhichOneWasAdoptedHasThoseBesideTheOthers) {
   Explanation e = TwoRounds();
   e.adopted.push_back(e.second_round[0].effect);

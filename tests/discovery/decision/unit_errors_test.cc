@@ -1,4 +1,5 @@
-// Machines of one type, of which the rig file states how much their coils differ: none is taken for a machine with an effect.
+// Machines of one type, of which the rig file states how much their coils differ: none is taken for
+// a machine with an effect.
 #include "discovery/decision/unit_errors.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ namespace {
 
 class UnitErrorsTest : public testing::ClampedReference {
  protected:
-  /// Whether the records of a machine are within what others of its type show, and the errors of these.
+  /// Whether the records of a machine are within what others of its type show, and the errors of
+  /// these.
   bool IsWithin(const RigParameters& machine, UnitErrors* errors = nullptr,
                 std::string* said = nullptr) const {
     Hypothesis truth;

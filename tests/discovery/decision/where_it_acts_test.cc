@@ -73,8 +73,9 @@ TEST(ShareWhereItActs, LittleErrorOrLittleEvidenceIsNotEnough) {
   EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), lost, kPlainGain, false));
 }
 
-// What is explained to the noise there is an effect of its own, however little stood there and whichever was adopted before;
-// of what is nearly explained the first effect's parameters have not made room for what else is missing.
+// What is explained to the noise there is an effect of its own, however little stood there and
+// whichever was adopted before; of what is nearly explained the first effect's parameters have not
+// made room for what else is missing.
 TEST(ShareWhereItActs, TheFirstEffectExplainsAllOfItsChannels) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult all = WithErrors(c, {1, 4, 1, 4}), nearly = WithErrors(c, {1.5, 4, 1.5, 4});

@@ -1,4 +1,5 @@
-// The records of an examination: what is excited, how strongly, at which speeds, and the case that they make.
+// The records of an examination: what is excited, how strongly, at which speeds, and the case that
+// they make.
 #include "discovery/experiment/examination.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +34,8 @@ class ExaminationOf : public ::testing::Test {
   const double weight_ = rig_.rotor.mass * 9.81;
 };
 
-// rpm of the titles: 60 Hz is 377 rad/s, 180 Hz 1131, 100 Hz 628, 250 Hz 1571, 50 Hz 314, 80 Hz 503.
+// rpm of the titles: 60 Hz is 377 rad/s, 180 Hz 1131, 100 Hz 628, 250 Hz 1571, 50 Hz 314, 80 Hz
+// 503.
 TEST_F(ExaminationOf, EveryRecordHasItsSpeedsLengthAndUse) {
   struct Row {
     const char* title;
@@ -82,7 +84,8 @@ TEST_F(ExaminationOf, OnlyThePulsesAreRecordedAtTheRateOfTheConverters) {
   }
 }
 
-// 17 lines an axis on the grid of 0.5 Hz between 5 and 1500 Hz, all axes apart where the grid is fine enough.
+// 17 lines an axis on the grid of 0.5 Hz between 5 and 1500 Hz, all axes apart where the grid is
+// fine enough.
 TEST_F(ExaminationOf, MultisinesShareTheBandBetweenTheAxes) {
   const Scenario s = Named("multisine at rest");
   ASSERT_EQ(s.excitations.size(), 5u);  // A.x, A.y, B.x, B.y, z
@@ -122,7 +125,8 @@ TEST_F(ExaminationOf, MultisinesShareTheBandBetweenTheAxes) {
   EXPECT_NEAR(last[16] / last[15], std::pow(300.0, 1.0 / 17), 0.01);
 }
 
-// A step of each bearing within its share of the clearance, neighbours to opposite sides; then loads of radial bearings.
+// A step of each bearing within its share of the clearance, neighbours to opposite sides; then
+// loads of radial bearings.
 TEST_F(ExaminationOf, StepsMoveEachBearingAndThenLoadIt) {
   for (const auto& [title, share] :
        {std::pair{"steps of reference and load at rest", 0.3}, std::pair{"steps at 100 Hz", 0.2}}) {
@@ -153,8 +157,8 @@ TEST_F(ExaminationOf, StepsMoveEachBearingAndThenLoadIt) {
   }
 }
 
-// Bias in all coils of the radial bearings for the whole record, and more in one pair of neighbours after the other: never
-// above what the amplifier gives.
+// Bias in all coils of the radial bearings for the whole record, and more in one pair of neighbours
+// after the other: never above what the amplifier gives.
 TEST_F(ExaminationOf, ClampedRecordsRaiseOnePairOfCoilsAfterTheOther) {
   for (const char* title :
        {"clamped, current ramps", "clamped, current pulses", "clamped off centre, current ramps"}) {
@@ -198,8 +202,8 @@ TEST_F(ExaminationOf, TheSeedDrawsSizesAndTheSameSeedTheSame) {
   EXPECT_EQ(seeds.size(), Scenarios(3).size());
 }
 
-// Readings, currents and set-points of every bearing, load cells only where the rotor is held and the rate is the
-// controller's.
+// Readings, currents and set-points of every bearing, load cells only where the rotor is held and
+// the rate is the controller's.
 TEST_F(ExaminationOf, TheEmptyCaseHasTheChannelsOfALogger) {
   const auto records = Examination(rig_, 1);
   const Case c = EmptyCase(rig_, records);

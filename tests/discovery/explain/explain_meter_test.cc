@@ -1,4 +1,5 @@
-// Readings of an LCR meter over stroke and frequency, from closed forms of the iron: which eddy currents they show.
+// Readings of an LCR meter over stroke and frequency, from closed forms of the iron: which eddy
+// currents they show.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -55,7 +56,8 @@ gap_constant = { value = 0.005, sd = 3.0e-4 }
 sensor = { noise = 1.0e-6 }
 )";
 
-/// Case of a table of a coil whose gap has 1 + T(f) times its reluctance where the body works, 2 mm off:
+/// Case of a table of a coil whose gap has 1 + T(f) times its reluctance where the body works, 2 mm
+/// off:
 ///   l(g) = L_0/(1 + g/g_c)
 ///   L = L_inf + l/(1 + T l/l(2 mm))
 /// Readings are good to half a per cent.
@@ -125,8 +127,9 @@ TEST(ExplainMeter, ThickIronIsNamedWithItsCutoff) {
   }
 }
 
-// Laminations whose corner, 127 Hz, lies within the meter's band: thickness and cutoff are both told. With path p the reluctance of
-// the gap is g_c + g long, so that ρ = p/(g_c + g) and z² = j ω/(ρ² ω_c).
+// Laminations whose corner, 127 Hz, lies within the meter's band: thickness and cutoff are both
+// told. With path p the reluctance of the gap is g_c + g long, so that ρ = p/(g_c + g) and z² = j
+// ω/(ρ² ω_c).
 TEST(ExplainMeter, LaminationsKeepTheirThickness) {
   const double path = 8e-4, cutoff = 1e4, rho = path / 7.1e-3;
   const Explanation e = Explained([&](double f) {
@@ -142,7 +145,8 @@ TEST(ExplainMeter, LaminationsKeepTheirThickness) {
   EXPECT_LT(e.final_ratio_fit, 1.3);
 }
 
-// Laws of neither form: an order of 0.6 (measured orders lie between 0.4 and 0.7), a sleeve round thick iron.
+// Laws of neither form: an order of 0.6 (measured orders lie between 0.4 and 0.7), a sleeve round
+// thick iron.
 TEST(ExplainMeter, OtherLawsAreEddyCurrentsToo) {
   const std::function<Complex(double)> laws[] = {
       [](double f) { return std::pow(Complex(0, f / 400), 0.6); },

@@ -68,8 +68,8 @@ TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
   EXPECT_EQ(fractions.back(), 1);
 }
 
-// Held at one place per record, a gain is another zero in every record: one number that explains them all
-// is preferred to as many as there are records.
+// Held at one place per record, a gain is another zero in every record: one number that explains
+// them all is preferred to as many as there are records.
 TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   const Case c = MeasuredCase(Places(1.08));
   const Explanation e = Explain(c, ShortSearch());
@@ -81,8 +81,8 @@ TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   EXPECT_TRUE(e.nuisances.empty());
 }
 
-// A gain that differs between the two directions is none of the catalogue's, but explains most of what as many zeros as
-// there are records do; the zeros take what it leaves.
+// A gain that differs between the two directions is none of the catalogue's, but explains most of
+// what as many zeros as there are records do; the zeros take what it leaves.
 TEST(Explain, AnEffectWithALawOfAnotherFormIsPreferredToZeros) {
   std::vector<MeasuredPlace> places = Places(1), more = Places(1);
   for (MeasuredPlace& p : more) p.x *= 0.7, p.y *= -1.2;
@@ -120,7 +120,8 @@ TEST(Explain, TwoEffectsAreNamedBesideEachOther) {
   }
 }
 
-// The sign of a reading at a level shows only where it is known how large it is: beside a gain of 1.3 it looks like no mistake.
+// The sign of a reading at a level shows only where it is known how large it is: beside a gain of
+// 1.3 it looks like no mistake.
 TEST(Explain, WrongDataThatAnEffectHidAreFoundBesideIt) {
   std::vector<MeasuredPlace> places{{1.5e-5, 2e-5, 1.3}};
   for (int r = 0; r < 9; ++r) places.push_back({(r % 2 ? -1e-5 : 1e-5) * (5 + r), 3e-5, 1.3});

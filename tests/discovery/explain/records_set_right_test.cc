@@ -1,5 +1,6 @@
-// Commands that came out larger in one record than its scenario says: pulses do not grow in proportion, so that they
-// are simulated at the size found. And a voltage that grows with the current of one coil.
+// Commands that came out larger in one record than its scenario says: pulses do not grow in
+// proportion, so that they are simulated at the size found. And a voltage that grows with the
+// current of one coil.
 #include <gmock/gmock.h>
 
 #include <cmath>

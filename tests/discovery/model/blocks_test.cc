@@ -51,8 +51,9 @@ TEST_F(Blocks, ALostSampleChangesLittle) {
     EXPECT_NEAR(holed.at(block), error, 0.2 * std::max(error, 1e-4)) << block;
 }
 
-// The recorded set-points are those of the controller with the recorded readings: nothing is left but the rounding of the
-// record, and a constant in the readings, which the integral would take up, is none of the controller's.
+// The recorded set-points are those of the controller with the recorded readings: nothing is left
+// but the rounding of the record, and a constant in the readings, which the integral would take up,
+// is none of the controller's.
 TEST_F(Blocks, TheControllerThatWroteTheRecordHasNoError) {
   EXPECT_LT(Errors().at("controller"), 1e-6);
   for (double& v : Samples("A.s3")) v += 0.1;
@@ -63,7 +64,8 @@ TEST_F(Blocks, TheControllerThatWroteTheRecordHasNoError) {
   EXPECT_GT(Errors().at("controller"), 0.02);
 }
 
-// The errors are judged about their mean: of one row after the 30 that settle nothing is left, whatever its set-points.
+// The errors are judged about their mean: of one row after the 30 that settle nothing is left,
+// whatever its set-points.
 TEST_F(Blocks, TheMeanOfTheControllersErrorIsNoError) {
   for (Channel& c : record_.channels) c.samples.resize(33);
   for (const int coil : {1, 3, 5}) Samples("A.s" + std::to_string(coil)).back() += 0.1 * coil;

@@ -32,7 +32,8 @@ class BranchRowsTest : public ::testing::Test {
  protected:
   BranchRowsTest() { FindFloor(model_, nominal_); }
 
-  /// The tolerances drawn from another stream than the lines that branches are sought on, `part` of a sd.
+  /// The tolerances drawn from another stream than the lines that branches are sought on, `part` of
+  /// a sd.
   Hypothesis Drawn(std::uint64_t number, double part) const {
     Hypothesis h = nominal_;
     for (std::size_t k = 0; k < h.free.size(); ++k)
@@ -45,8 +46,9 @@ class BranchRowsTest : public ::testing::Test {
   const Hypothesis nominal_ = Hypothesis::Base(data_.rig);
 };
 
-// A tenth of a sd and two of them change currents by twice as much, but for jumps: of the rows where they do not, by
-// more than six floors, nearly all lie in branches, which are a small part of the currents.
+// A tenth of a sd and two of them change currents by twice as much, but for jumps: of the rows
+// where they do not, by more than six floors, nearly all lie in branches, which are a small part of
+// the currents.
 TEST_F(BranchRowsTest, JumpsOfOtherDrawsLieInBranches) {
   model_.branches = RowsIn(model_, FindBranches(model_, nominal_));
   ASSERT_FALSE(model_.branches.empty());

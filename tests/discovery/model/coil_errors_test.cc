@@ -1,5 +1,5 @@
-// The errors of single coils of a machine whose rig file states how large they are: the machine draws its own, of each coil at
-// once; a model that draws all alike finds each of them again.
+// The errors of single coils of a machine whose rig file states how large they are: the machine
+// draws its own, of each coil at once; a model that draws all alike finds each of them again.
 #include "discovery/model/coil_errors.h"
 
 #include <gtest/gtest.h>
@@ -121,7 +121,8 @@ TEST_F(CoilErrorsFound, AreAddedToTheirBearing) {
   EXPECT_TRUE(rig.bearings[0].coil_errors.current_gain.empty());
 }
 
-// A gain of 1.6 % of one coil is what some coils of this type have; 3 %, or the gain of a whole bearing, is not.
+// A gain of 1.6 % of one coil is what some coils of this type have; 3 %, or the gain of a whole
+// bearing, is not.
 TEST_F(CoilErrorsFound, AreTheSpreadUpToFiveTimesItsSize) {
   RigParameters rig = rig_;
   rig.amplifier.current_gain_spread = 0.005;

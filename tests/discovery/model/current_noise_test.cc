@@ -1,4 +1,5 @@
-// The noise of a current sensor, found from records whose rig file states another one, and the floors that it makes.
+// The noise of a current sensor, found from records whose rig file states another one, and the
+// floors that it makes.
 #include <gtest/gtest.h>
 
 #include "discovery/model/floor.h"
@@ -10,7 +11,8 @@ namespace {
 
 constexpr double kTrue = 0.0048;  // A, a quarter of a code of the ADC
 
-/// Clamped ramps and pulses of the reference rig with an ADC of 20 A, whose file states `stated` [A].
+/// Clamped ramps and pulses of the reference rig with an ADC of 20 A, whose file states `stated`
+/// [A].
 Case ClampedRecords(double stated) {
   RigParameters rig = testing::RadialRig();
   rig.amplifier.adc_range = 20;
@@ -27,7 +29,8 @@ Case ClampedRecords(double stated) {
   return c;
 }
 
-// Readings without noise stand on one code or jump between two: that is no noise which could be taken off.
+// Readings without noise stand on one code or jump between two: that is no noise which could be
+// taken off.
 TEST(EstimateNoise, OfCurrentsThatAreReadInCoarseCodes) {
   for (const double stated : {0.008, 0.016}) {
     const Case c = ClampedRecords(stated);
@@ -57,7 +60,8 @@ std::pair<double, double> FloorsOfACurrent(const Case& c) {
   return {single, mean};
 }
 
-// 18 readings have a mean whose noise is a quarter of theirs: one number a channel would be too large for the means.
+// 18 readings have a mean whose noise is a quarter of theirs: one number a channel would be too
+// large for the means.
 TEST(Floor, OfACurrentIsThatOfItsRecord) {
   Case c = ClampedRecords(kTrue);
   std::erase_if(c.records, [](const CaseRecord& r) {

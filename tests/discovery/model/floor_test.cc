@@ -28,8 +28,8 @@ TEST(Floor, OfAReadingIsItsNoise) {
   EXPECT_NEAR(floor.clean[0], 2e-5, 1e-12);  // A.x of the first record, without noise
 }
 
-// White noise in channels that know nothing of each other: as many numbers as there are rows, but for
-// what the squares of chance correlations take (1 + 2 Σ 1/n over the lags: a third).
+// White noise in channels that know nothing of each other: as many numbers as there are rows, but
+// for what the squares of chance correlations take (1 + 2 Σ 1/n over the lags: a third).
 TEST(Floor, WhiteRowsAreIndependent) {
   const Case c = HeldReadings();
   CaseModel model(c);
@@ -39,7 +39,8 @@ TEST(Floor, WhiteRowsAreIndependent) {
   EXPECT_LT(floor.effective_sample_size, 0.75 * rows);
 }
 
-// A sine of 20 rows has the autocorrelation cos(pi lag/10) at every lag: of 200 rows one is independent.
+// A sine of 20 rows has the autocorrelation cos(pi lag/10) at every lag: of 200 rows one is
+// independent.
 TEST(RowsPerIndependentOne, OfASineAreAsManyAsTheLags) {
   std::vector<double> v(2010, 1e6);
   for (std::size_t k = 10; k < v.size(); ++k) v[k] = std::sin(M_PI * static_cast<double>(k) / 10);

@@ -1,5 +1,5 @@
-// The numbers that a fit may move: which are free, their priors, bounds and coordinates, for every effect of
-// the catalogue (residual_test.cc has what one of them does).
+// The numbers that a fit may move: which are free, their priors, bounds and coordinates, for every
+// effect of the catalogue (residual_test.cc has what one of them does).
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -58,8 +58,8 @@ EffectInstance Strong(const EffectDescription& d, const std::string& target) {
   return e;
 }
 
-// Every parameter of the catalogue: a coordinate leads back to its value, one unit of it is a ratio of
-// e^0.3 or a step of three tenths of the usual size.
+// Every parameter of the catalogue: a coordinate leads back to its value, one unit of it is a ratio
+// of e^0.3 or a step of three tenths of the usual size.
 TEST(Hypothesis, CoordinatesAreRatiosOrSteps) {
   const RigParameters rig = RigWith({});
   const EffectTargets targets = TargetsOfEffects(rig);

@@ -1,6 +1,7 @@
 #pragma once
-/// A practice case of the reference rig without its thrust bearing and without an effect, every parameter as in the rig file: what
-/// remains of a model that is given measured motion or measured currents must be noise.
+/// A practice case of the reference rig without its thrust bearing and without an effect, every
+/// parameter as in the rig file: what remains of a model that is given measured motion or measured
+/// currents must be noise.
 #include <gtest/gtest.h>
 
 #include <algorithm>

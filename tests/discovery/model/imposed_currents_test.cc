@@ -1,5 +1,6 @@
-// Records with imposed currents: measured currents in gaps that follow the measured positions move the rotor, circuits
-// and controller play no part. The data come from levitated runs under the controller.
+// Records with imposed currents: measured currents in gaps that follow the measured positions move
+// the rotor, circuits and controller play no part. The data come from levitated runs under the
+// controller.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,8 +54,8 @@ TEST_F(ImposedCurrents, WrongCircuitsAndControllersPlayNoPart) {
   EXPECT_NEAR(ErrorOverFloor(data_), right, 1e-6 * right);
 }
 
-// A constant force that the model does not know, at z_F from the mass centre: at rest e = F/(m ω²) in the mass
-// centre and a tilt F z_F/(I ω²), which a sensor at z_s reads as F z_F z_s/(I ω²) more.
+// A constant force that the model does not know, at z_F from the mass centre: at rest e = F/(m ω²)
+// in the mass centre and a tilt F z_F/(I ω²), which a sensor at z_s reads as F z_F z_s/(I ω²) more.
 TEST_F(ImposedCurrents, AConstantForceIsTheObserversOffset) {
   const CaseRecord& r = data_.records.front();
   const RigParameters& rig = data_.rig;

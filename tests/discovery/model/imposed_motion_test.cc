@@ -1,5 +1,6 @@
-// Records with imposed motion: measured positions move the gaps, rotor and controller play no part. The data come from levitated
-// runs under the controller, which is another path through the engine than the one that predicts them.
+// Records with imposed motion: measured positions move the gaps, rotor and controller play no part.
+// The data come from levitated runs under the controller, which is another path through the engine
+// than the one that predicts them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -65,8 +65,8 @@ TEST(EstimateNoise, WhatIsTheSameInEveryRecordIsNoise) {
   EXPECT_EQ(EstimatedNoise(c, "A.y").used, 1.95e-7);  // agrees
 }
 
-// A record that is faster than the controller repeats every reading: its noise is that of the new values. (The equal
-// neighbours gave a sixth of it, and the rest was held to be unexplained.)
+// A record that is faster than the controller repeats every reading: its noise is that of the new
+// values. (The equal neighbours gave a sixth of it, and the rest was held to be unexplained.)
 TEST(EstimateNoise, OfReadingsThatAreRepeated) {
   for (const std::size_t records : {1u, 4u}) {
     Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
@@ -93,7 +93,8 @@ TEST(EstimateNoise, WhatDiffersFromRecordToRecordIsNotBelievedSoFast) {
   EXPECT_EQ(EstimatedNoise(c, "A.x").used, 1.8e-7);
 }
 
-// Filtered noise shows little of itself from row to row. A statement that is too large is contradicted by the errors.
+// Filtered noise shows little of itself from row to row. A statement that is too large is
+// contradicted by the errors.
 TEST(EstimateNoise, FilteredNoiseIsAsLargeAsStated) {
   Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
   const double keep = 0.95, rms = 3e-6, fresh = rms * std::sqrt(1 - keep * keep);

@@ -1,5 +1,5 @@
-// What may differ from record to record is taken off every residual: amounts and what is left in closed
-// form, for columns that are written down.
+// What may differ from record to record is taken off every residual: amounts and what is left in
+// closed form, for columns that are written down.
 #include "discovery/model/nuisances.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,8 @@ TEST_F(NuisanceTest, AmountsAreThoseOfTheRidgeFitRecordByRecord) {
   EXPECT_EQ(found[2].record, linear_.data.records[2].data_file);
 }
 
-// What is left of an offset is its share that the prior holds back; other channels stay as they were.
+// What is left of an offset is its share that the prior holds back; other channels stay as they
+// were.
 TEST_F(NuisanceTest, EliminationLeavesWhatThePriorHoldsBack) {
   const double w = 1, n = LinearCase::kRows;
   Nuisances nuisances;
@@ -147,8 +148,8 @@ TEST_F(NuisanceTest, AmountsOfAllRecordsAreEstimatedFromTheFittedOnes) {
   EXPECT_NEAR(found[0].sd, 2e-6 / std::sqrt(w * 2 * 4 * n + 1), 1e-15);
 }
 
-// Fitted rows r along the column c keep r'(1 + w c c')⁻¹ r of their square, the price of the amount; from the unseen record
-// the estimate is taken off.
+// Fitted rows r along the column c keep r'(1 + w c c')⁻¹ r of their square, the price of the
+// amount; from the unseen record the estimate is taken off.
 TEST_F(NuisanceTest, WhatAllRecordsShareIsWeighedByItsCovariance) {
   const double w = 0.01, n = LinearCase::kRows;
   const Nuisances nuisances = OneZeroOfAll(w);
@@ -178,8 +179,8 @@ TEST_F(NuisanceTest, RecordsThatAreNotKnownTellNothingOfWhatAllShare) {
   }
 }
 
-// Zeros of each record and a zero of all: the shared amount is what the records' own ones, held back by their prior,
-// do not take.
+// Zeros of each record and a zero of all: the shared amount is what the records' own ones, held
+// back by their prior, do not take.
 TEST_F(NuisanceTest, BothKindsOfAmountsStandBesideEachOther) {
   NuisanceKind shared = Zero(), own = Zero();
   shared.name = "zero of all";

@@ -14,7 +14,8 @@ using testing::CaseOf;
 using testing::TemporaryFolder;
 using testing::WriteBytes;
 
-// Real and imaginary part scatter by 0.02 about the prediction; an error that changes slowly is none of the scatter.
+// Real and imaginary part scatter by 0.02 about the prediction; an error that changes slowly is
+// none of the scatter.
 TEST(PointFloor, IsTheScatterAboutThePrediction) {
   const TemporaryFolder folder;
   std::string text = "f [Hz],Re(trace),Im(trace)\n";

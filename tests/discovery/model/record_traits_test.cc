@@ -1,4 +1,5 @@
-// Which channels of a record the model predicts, from when on, and whether its rotor touches something.
+// Which channels of a record the model predicts, from when on, and whether its rotor touches
+// something.
 #include "discovery/model/record_traits.h"
 
 #include <gtest/gtest.h>
@@ -34,8 +35,8 @@ TEST(RecordTraits, WhatIsPrescribedIsNotPredicted) {
   EXPECT_FALSE(IsPredicted(free, "theta"));
 }
 
-// Measured positions that move the shaft are given, and so are the set-points measured beside them; the loops need their
-// time to forget what went before.
+// Measured positions that move the shaft are given, and so are the set-points measured beside them;
+// the loops need their time to forget what went before.
 TEST(RecordTraits, WhatDrivesIsNotPredicted) {
   CaseRecord r = TimeRecord(StartState::kLevitated);
   r.data.start = 0.1;

@@ -110,8 +110,8 @@ TEST(ResidualForce, ATranslationNeedsTheMassTimesItsAcceleration) {
 }
 
 // A conical motion needs the transverse inertia times its angular acceleration, and across it the
-// gyroscopic moment: the spin's Ip Ω points along the shaft, which tilts by β towards x, so that its
-// part along x changes with Ip Ω β'.
+// gyroscopic moment: the spin's Ip Ω points along the shaft, which tilts by β towards x, so that
+// its part along x changes with Ip Ω β'.
 TEST(ResidualForce, AConicalMotionNeedsInertiaAndGyroscopicMoment) {
   const RigParameters rig = ReferenceRig();
   const double tilt = 2e-4, f0 = 30, w = 2 * kPi * f0;

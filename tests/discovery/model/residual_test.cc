@@ -52,8 +52,9 @@ TEST(Residual, AKindOfRecordThatTheCaseHasNotLeavesNoError) {
   EXPECT_GT(Ratio(model, r, Which::kFit), 0);
 }
 
-// Points of a response are few beside rows over time, whose floor is known to 1 % of its power: they count in full, the
-// rows as 1e4 numbers. What rows leave below their floor does not make good what points leave.
+// Points of a response are few beside rows over time, whose floor is known to 1 % of its power:
+// they count in full, the rows as 1e4 numbers. What rows leave below their floor does not make good
+// what points leave.
 TEST(Ratio, OfRowsAndPointsCountsEitherByWhatItTells) {
   ErrorSums sums;
   sums.square = 0.96 * 150000;

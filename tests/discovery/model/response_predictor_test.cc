@@ -209,8 +209,8 @@ TEST(LinearResponses, AHeldCoilRestsAtTheDutyOfItsCopper) {
   EXPECT_GT(coil.duty, regulator.DutyFromVoltage(0));
 }
 
-// A multisine on the simulated rig measures, without any quotient of models, what the linear model says; a command is in
-// force, and in the record, one period after it was computed.
+// A multisine on the simulated rig measures, without any quotient of models, what the linear model
+// says; a command is in force, and in the record, one period after it was computed.
 TEST(MultisineMeasurement, MeasuresTheForceCommandOfTheSetPoints) {
   const TemporaryFolder folder;
   const Case c =

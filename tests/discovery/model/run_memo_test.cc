@@ -45,7 +45,8 @@ TEST(RunMemo, TheLeastRecentlyUsedGoesFirst) {
   EXPECT_TRUE(memo.Find("c", out.data()));
 }
 
-// Five keys of a hundred letters fit in a thousand bytes: of fifty the last five are there, however many went before.
+// Five keys of a hundred letters fit in a thousand bytes: of fifty the last five are there, however
+// many went before.
 TEST(RunMemo, HoldsAsManyAsFitAfterManyHaveGone) {
   RunMemo memo(1000);
   const auto key = [](int k) {

@@ -130,7 +130,8 @@ TEST_F(RunStoreTest, AnEntryThatWasCutOffIsDoneAgain) {
   EXPECT_EQ(again.runs, 1);
 }
 
-// Its check sum fits, but the rows that are asked for are more (or fewer, and there is no room for the others).
+// Its check sum fits, but the rows that are asked for are more (or fewer, and there is no room for
+// the others).
 TEST_F(RunStoreTest, AnEntryOfAnotherLengthIsDoneAgain) {
   const Case c = Read();
   const auto wanted = KeptPredictions(c, Store());

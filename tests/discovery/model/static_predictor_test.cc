@@ -53,8 +53,8 @@ std::string DifferentialTable(const std::vector<std::pair<double, double>>& rows
   return text;
 }
 
-// k_i = 2 A B0²/(mu0 i0) Σ cos over a quadrant, k_s = n A B0²/(2 mu0 g0), B0 = mu0 N i0/g0: 116.0981
-// N/A and 628 318.5 N/m. The force is linear in i, so a difference of any size gives k_i.
+// k_i = 2 A B0²/(mu0 i0) Σ cos over a quadrant, k_s = n A B0²/(2 mu0 g0), B0 = mu0 N i0/g0:
+// 116.0981 N/A and 628 318.5 N/m. The force is linear in i, so a difference of any size gives k_i.
 TEST(StaticPredictor, TextbookBearing) {
   const TemporaryFolder folder;
   WriteBytes(folder.File("table.csv"),
@@ -85,8 +85,8 @@ TEST(StaticPredictor, InductanceAndLinkageOfOneCoil) {
   }
 }
 
-// Standing currents of the switching engine read by its load cells, with saturated iron: the mean of
-// the current's ripple and the force's agree to its square.
+// Standing currents of the switching engine read by its load cells, with saturated iron: the mean
+// of the current's ripple and the force's agree to its square.
 TEST(StaticPredictor, LoadCellsOfAHeldSaturatedRotor) {
   const TemporaryFolder folder;
   WriteBytes(folder.File("table.csv"), "A.x [um],A.i1 [A],A.fx [N],A.fy [N]\n60,3,1,1\n");
@@ -132,7 +132,8 @@ std::vector<std::vector<double>> MeterReadings(const TemporaryFolder& folder, co
   return Predicted(c, rig);
 }
 
-/// Coil 1 alone, equal gaps: L(f) = L_l + 7/8 N² P/(1 + T(f)) with T what the iron adds to each gap.
+/// Coil 1 alone, equal gaps: L(f) = L_l + 7/8 N² P/(1 + T(f)) with T what the iron adds to each
+/// gap.
 std::complex<double> InductanceOf(const RadialStatorParameters& b, std::complex<double> added) {
   const double P = 4e-7 * 3.14159265358979 * b.pole_area / b.gap;
   return b.leakage_inductance + b.turns * b.turns * P * (7.0 / 8) / (1.0 + added);

@@ -28,8 +28,8 @@ TEST_F(UnpredictableRowsTest, WhiteNoiseHasNone) {
   EXPECT_TRUE(UnpredictableRows(model_, d1_, d2_).empty());
 }
 
-// Three rows of one channel of the second record depart in one of the two runs: 0.5 ms before and after
-// belong to them (seven rows at 12.5 kHz), in all channels of that record and in no other.
+// Three rows of one channel of the second record depart in one of the two runs: 0.5 ms before and
+// after belong to them (seven rows at 12.5 kHz), in all channels of that record and in no other.
 TEST_F(UnpredictableRowsTest, DepartureIsAnInstantOfItsRecord) {
   const Target& t = model_.targets()[5];
   ASSERT_EQ(t.record, 1u);

@@ -42,8 +42,8 @@ PracticeRig RigFile(const std::string& name) {
   return {name, file, WithAbsoluteFiles(ReadFile(file), file)};
 }
 
-// An iron path that shows little more than the noise: no safe record tells it from a zero of the current sensors, the plan
-// says so, and the record that it proposes nevertheless does not.
+// An iron path that shows little more than the noise: no safe record tells it from a zero of the
+// current sensors, the plan says so, and the record that it proposes nevertheless does not.
 TEST(TryPromise, WhatCannotBeToldIsNotPromised) {
   if (std::getenv("AMBRIG_SLOW_TESTS") == nullptr)
     GTEST_SKIP() << "half a minute of computing: AMBRIG_SLOW_TESTS=1 runs it";

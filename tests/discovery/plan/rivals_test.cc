@@ -46,7 +46,8 @@ struct Views {
 };
 
 // An offset b read in n rows, its number and its law known well: b/floor sqrt(n) standard
-// deviations; a share v of the law in eight blocks and in the one channel that shows it lowers it to
+// deviations; a share v of the law in eight blocks and in the one channel that shows it lowers it
+// to
 //   d² = S' /(1 + v² S'),  S' = Σ s/(1 + v² s) over the blocks,  s: of n b²/floor².
 TEST(Rivals, DistanceFromNothingIsThatOfTheSignature) {
   Views v;
@@ -73,7 +74,8 @@ TEST(Rivals, DistanceFromNothingIsThatOfTheSignature) {
   EXPECT_NEAR(ProbabilityRight(std::pow(DistanceOf(probability), 2)), probability, 1e-9);
 }
 
-// A record's own zero of sd z may be what an offset b is: to explain it costs at least (b/z)², shared by both models.
+// A record's own zero of sd z may be what an offset b is: to explain it costs at least (b/z)²,
+// shared by both models.
 TEST(Rivals, ZerosOfTheRecordAreNoDistance) {
   for (const double zero : {1e-4, 2e-7}) {
     Views v;

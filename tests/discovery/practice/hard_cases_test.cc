@@ -32,11 +32,12 @@ class HardCases : public ::testing::Test {
   }
 };
 
-// Eddy currents beside an unbalance, with zeros and clocks that nobody declared: each of the two explains little of
-// what the other leaves.
+// Eddy currents beside an unbalance, with zeros and clocks that nobody declared: each of the two
+// explains little of what the other leaves.
 TEST_F(HardCases, AnEffectAndNuisancesThatHideEachOther) { EXPECT_TRUE(ScoreOf(16, 35).right()); }
 
-// Eddy currents of two sheets, which the free shapes of both laws do not tell from hysteresis, beside two other effects.
+// Eddy currents of two sheets, which the free shapes of both laws do not tell from hysteresis,
+// beside two other effects.
 TEST_F(HardCases, ANameThatFreeShapesCompared) { EXPECT_TRUE(ScoreOf(16, 29).right()); }
 
 // A cross-coupling that falls off with the orbit: its free shape explains what the law leaves.
@@ -45,13 +46,16 @@ TEST_F(HardCases, ACrossCouplingOfTheOrbit) { EXPECT_TRUE(ScoreOf(16, 46).right(
 // A coupling of many orders, whose rest looks like a run-out.
 TEST_F(HardCases, ACouplingOfManyOrders) { EXPECT_TRUE(ScoreOf(16, 48).right()); }
 
-// Eddy currents of two sheets and a cross-coupling, beside commands that are larger in every record.
+// Eddy currents of two sheets and a cross-coupling, beside commands that are larger in every
+// record.
 TEST_F(HardCases, CommandsThatAreLargerInEveryRecord) { EXPECT_TRUE(ScoreOf(16, 22).right()); }
 
-// Eddy currents of a tenth of the smallest usual size, in a closed ring, found in a pair with an effect that then goes.
+// Eddy currents of a tenth of the smallest usual size, in a closed ring, found in a pair with an
+// effect that then goes.
 TEST_F(HardCases, WhatAPairLeavesAlone) { EXPECT_TRUE(ScoreOf(17, 4).right()); }
 
-// Commands of another size move the instants at which a limiter lets go: undeclared ones are simulated so, too.
+// Commands of another size move the instants at which a limiter lets go: undeclared ones are
+// simulated so, too.
 TEST_F(HardCases, CommandsOfAnotherSizeThatNobodyDeclared) { EXPECT_TRUE(ScoreOf(17, 14).right()); }
 
 // The details of the coupling's law and of an unbalance that grows hide the pull.

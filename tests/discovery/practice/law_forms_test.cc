@@ -1,4 +1,5 @@
-// Each law's own form: amounts at the usual size, powers, orders and symmetries, over several draws.
+// Each law's own form: amounts at the usual size, powers, orders and symmetries, over several
+// draws.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +60,8 @@ class LawForm : public ::testing::TestWithParam<std::uint64_t> {
   const RigParameters rig_ = ReadRig(AMBRIG_SOURCE_DIR "/examples/reference/rig.toml");
 };
 
-// A tenth of the weight at 1000 rad/s, with the square of the speed, more or less by a fifth to six tenths a second.
+// A tenth of the weight at 1000 rad/s, with the square of the speed, more or less by a fifth to six
+// tenths a second.
 TEST_P(LawForm, GrowingUnbalance) {
   const EffectInstance e = Make("unbalance-growing", "A").at(0);
   const auto size = [&](double omega, double t) {
@@ -83,7 +85,8 @@ TEST_P(LawForm, UnbalanceOfAnotherPower) {
   EXPECT_LE(power, 2.2 + 1e-6);
 }
 
-// Twice a turn forward with 5 % of the weight; a tenth to three tenths of it backward and once a turn, less at four.
+// Twice a turn forward with 5 % of the weight; a tenth to three tenths of it backward and once a
+// turn, less at four.
 TEST_P(LawForm, CouplingOfManyOrders) {
   const EffectInstance e = Make("coupling-orders", "A").at(0);
   const double f = 0.05 * kWeight, tiny = 1e-6 * f;
@@ -130,7 +133,8 @@ TEST_P(LawForm, GainOfTwoSides) {
 }
 
 // Each axis turns by its own angle: 0.04 rad, and six to eight and a half tenths of it.
-// Of a whole bearing every coil's voltage follows the coil's own current: as the logarithm far above the knee.
+// Of a whole bearing every coil's voltage follows the coil's own current: as the logarithm far
+// above the knee.
 TEST_P(LawForm, OffsetOfEveryCoilsOwnCurrent) {
   const std::vector<EffectInstance> all = Make("offset-of-current", "A");
   ASSERT_EQ(all.size(), 8u);
@@ -175,7 +179,8 @@ TEST_P(LawForm, ZeroThatDriftsAndDent) {
   EXPECT_NEAR(At(dent, "reading.y", {{"theta", at + M_PI / 2}}), deepest, 1e-6 * kReach);
 }
 
-// The operators share 5 %; widths fall by one factor from each to the next, or there are two of them.
+// The operators share 5 %; widths fall by one factor from each to the next, or there are two of
+// them.
 TEST_P(LawForm, LoopsOfManyWidthsOrTwo) {
   const auto shares = [&](const EffectInstance& e) {
     std::vector<double> out;
@@ -202,8 +207,8 @@ TEST_P(LawForm, LoopsOfManyWidthsOrTwo) {
   EXPECT_NEAR(sum, 0.1, 1e-9);
 }
 
-// Nodes of the iron's table are evenly spread to 1.5 T; a power of B is a straight line of logarithms, up to the longest
-// path.
+// Nodes of the iron's table are evenly spread to 1.5 T; a power of B is a straight line of
+// logarithms, up to the longest path.
 TEST_P(LawForm, IronOfAPowerAndOfRayleigh) {
   const EffectInstance power = Make("saturation-power", "A").at(0);
   EXPECT_EQ(power.Value("reach"), 1.5);
@@ -225,8 +230,8 @@ TEST_P(LawForm, IronOfAPowerAndOfRayleigh) {
     EXPECT_NEAR(path(rayleigh, k), 4.5e-5 / std::pow(1 + a * step * k, 2), 1e-12);
 }
 
-// Brauer's H = k1 exp(k2 B²) B has dH/dB in proportion to (1 + 2 c x²) exp(c x²), x = B/knee: c from the first node, the knee
-// from the second one, the third follows.
+// Brauer's H = k1 exp(k2 B²) B has dH/dB in proportion to (1 + 2 c x²) exp(c x²), x = B/knee: c
+// from the first node, the knee from the second one, the third follows.
 TEST_P(LawForm, IronOfBrauersExponential) {
   const EffectInstance iron = Make("saturation-brauer", "A").at(0);
   const double first = iron.Value("path0"), c = -std::log(first / 1e-5);

@@ -26,7 +26,8 @@ TEST(LoopMargin, ASlowAmplifierUnderAHeavyRotorIsRefused) {
   EXPECT_THROW(RequireLoopMargin(rig), InputError);
 }
 
-// Stable, but not when the gain of the loops changes by a tenth: found by bisection of the derivative gain.
+// Stable, but not when the gain of the loops changes by a tenth: found by bisection of the
+// derivative gain.
 TEST(LoopMargin, TheEdgeOfStabilityIsRefused) {
   RigParameters rig = Example("small_spindle");
   const double kd = rig.controller.pid.kd;

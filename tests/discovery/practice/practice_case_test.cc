@@ -75,8 +75,8 @@ TEST(PracticeCases, TwoEffectsAreOfTwoLawsWhichChange) {
   EXPECT_EQ(second.size(), 2U);
 }
 
-// The true rig leaves the noise and nothing else where the records have no nuisances; the rig file's
-// leaves more.
+// The true rig leaves the noise and nothing else where the records have no nuisances; the rig
+// file's leaves more.
 TEST(PracticeCases, OnlyTheTruthExplainsTheData) {
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
     const PracticeCase c = MakePracticeCase(RadialReference(), seed, 0);
@@ -100,7 +100,8 @@ TEST(PracticeCases, WrongDataSaysWhatIsWrong) {
   EXPECT_NE(c.mistake.find("unit"), std::string::npos) << c.mistake;
 }
 
-// Mistakes come in turn: the second case of wrong data (number 9) has a wrong sign, the third (15) a lag.
+// Mistakes come in turn: the second case of wrong data (number 9) has a wrong sign, the third (15)
+// a lag.
 TEST(PracticeCases, WrongDataAreOfEveryKindInTurn) {
   EXPECT_NE(MakePracticeCase(RadialReference(), 1, 9).mistake.find("sign"), std::string::npos);
   EXPECT_NE(MakePracticeCase(RadialReference(), 1, 15).mistake.find("lag"), std::string::npos);

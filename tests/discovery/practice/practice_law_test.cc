@@ -1,5 +1,5 @@
-// Laws of other forms: they build on every rig, are drawn the same again, grow with their size and are
-// not what explain proposes.
+// Laws of other forms: they build on every rig, are drawn the same again, grow with their size and
+// are not what explain proposes.
 #include "discovery/practice/laws/practice_law.h"
 
 #include <gtest/gtest.h>
@@ -116,8 +116,8 @@ TEST(PracticeLawForms, IronRisesAndFalls) {
   }
 }
 
-// The relaxations of order a sum to sin(a pi)/pi Σ (p/w)^a Δ ln p: from one to the next they grow by
-// 10^(a/2).
+// The relaxations of order a sum to sin(a pi)/pi Σ (p/w)^a Δ ln p: from one to the next they grow
+// by 10^(a/2).
 TEST(PracticeLawForms, RelaxationsFollowTheirOrder) {
   const RigParameters rig = ExampleRig("reference");
   for (const PracticeLaw& l : PracticeLaws()) {
@@ -129,7 +129,8 @@ TEST(PracticeLawForms, RelaxationsFollowTheirOrder) {
   }
 }
 
-// Dampings between 0.003 and 0.02, even in the logarithm: of 300 draws the ends are within a fiftieth of the decades.
+// Dampings between 0.003 and 0.02, even in the logarithm: of 300 draws the ends are within a
+// fiftieth of the decades.
 TEST(PracticeLawForms, DampingsOfTwoModesFillTheirRange) {
   const RigParameters rig = ExampleRig("reference");
   double least = 1, most = 0;

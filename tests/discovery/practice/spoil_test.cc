@@ -1,4 +1,5 @@
-// Mistakes put into data on purpose: each does what it says to one record and nothing to the others.
+// Mistakes put into data on purpose: each does what it says to one record and nothing to the
+// others.
 #include "discovery/practice/spoil.h"
 
 #include <gmock/gmock.h>

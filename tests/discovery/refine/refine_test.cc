@@ -1,6 +1,6 @@
 // The whole of `refine`: bursts of a held bearing whose iron is solid in one part and laminated in
-// another. Its impedance is the sum of two diffusion laws with other thicknesses, which is neither the
-// catalogue's law (one of them) nor made by the free shape's code.
+// another. Its impedance is the sum of two diffusion laws with other thicknesses, which is neither
+// the catalogue's law (one of them) nor made by the free shape's code.
 #include "discovery/refine/refine.h"
 
 #include <gtest/gtest.h>
@@ -85,8 +85,9 @@ TEST(Refine, FindsTheShapeAndWritesARigThatRuns) {
   EXPECT_EQ(refined.effects.back().target, "A");
 }
 
-// Bursts tell the errors of single coils once the shape leaves nothing else: the new rig holds them. What all coils have in
-// common, and in part what goes with the angle of the poles, may be parameters of the rig.
+// Bursts tell the errors of single coils once the shape leaves nothing else: the new rig holds
+// them. What all coils have in common, and in part what goes with the angle of the poles, may be
+// parameters of the rig.
 TEST(Refine, WritesTheErrorsOfTheCoils) {
   const std::vector<double> truth = {0.004, -0.003, 0.006, -0.005, 0, 0.002, -0.006, 0.003};
   const Case c = MeasuredBursts(11, truth);

@@ -58,8 +58,8 @@ TEST(FitBriefly, ANarrowEffectThatExplainsNothingIsNotFitted) {
   EXPECT_TRUE(std::isinf(fit.ratio_fit));
 }
 
-// Beside an effect that has its place the columns of that one are lent: the same optimum of a linear
-// problem with fewer simulations.
+// Beside an effect that has its place the columns of that one are lent: the same optimum of a
+// linear problem with fewer simulations.
 TEST(FitBriefly, BesideAnEffectItsSensitivitiesAreLent) {
   long runs[2] = {};
   for (const bool lent : {false, true}) {
@@ -134,8 +134,8 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
   EXPECT_THAT(told.texts, ::testing::Contains("full fit of sensor-gain at A.x"));
 }
 
-// One candidate is asked for, but a name given without the other laws of its place would be too sure: those
-// that promise a third of the error are fitted too, at this place only.
+// One candidate is asked for, but a name given without the other laws of its place would be too
+// sure: those that promise a third of the error are fitted too, at this place only.
 TEST(RankEffects, RivalsAtThePlaceOfTheBestAreFittedToo) {
   const LinearCase c(kX, 1.3, 0);
   const FitResult base = c.Base();
@@ -177,7 +177,8 @@ TEST(RankEffects, ASecondRoundFindsWhatTheFirstLeft) {
     EXPECT_FALSE(r.effect.name == "sensor-gain" && r.effect.target == "A.x");
 }
 
-// An offset of 2 floors in one channel of two leaves a ratio of 1.4, in which a tone may still hide; one of 1.2 leaves none.
+// An offset of 2 floors in one channel of two leaves a ratio of 1.4, in which a tone may still
+// hide; one of 1.2 leaves none.
 TEST(RankEffects, ALaterRoundSeeksFrequenciesWhereAnErrorIsLeft) {
   for (const double offset : {2e-6, 1.2e-6}) {
     const LinearCase c(kX, 1, offset);

@@ -1,5 +1,5 @@
-// Parameters of the rig under their prior, in a problem that is linear in one of them: where data and drawing
-// meet has a closed form.
+// Parameters of the rig under their prior, in a problem that is linear in one of them: where data
+// and drawing meet has a closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 constexpr double kHeldAt = 4e-5, kSd = 1e-3;  // [m] of a held shaft, tilted; of the sensor's z
 
 /// Four records of a shaft held at +x in A and -x in B, the last one unseen: the reading of A.x is
-/// x (1 - 2 (z_s - z_A)/(z_B - z_A)), linear in the sensor's z_s, which in truth stands `shift` sd off.
+/// x (1 - 2 (z_s - z_A)/(z_B - z_A)), linear in the sensor's z_s, which in truth stands `shift` sd
+/// off.
 class TiltedCase {
  public:
   explicit TiltedCase(double shift) : data(Make(shift)), model(data) {

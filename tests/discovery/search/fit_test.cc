@@ -1,4 +1,5 @@
-// The fit on problems that are linear in the unknowns: optimum, covariance, warnings in closed form.
+// The fit on problems that are linear in the unknowns: optimum, covariance, warnings in closed
+// form.
 #include "discovery/search/fit.h"
 
 #include <gmock/gmock.h>
@@ -73,8 +74,8 @@ TEST(Jacobian, TwoSidedIsTheSameWhereTheReadingIsLinear) {
   EXPECT_LT((one - bound).norm(), 1e-6 * one.norm());
 }
 
-// A reading that jumps by 10 um where k passes 0.5, and nowhere else depends on it: from 0.45 a step of 0.1
-// crosses that on one side only, which is no slope.
+// A reading that jumps by 10 um where k passes 0.5, and nowhere else depends on it: from 0.45 a
+// step of 0.1 crosses that on one side only, which is no slope.
 TEST(Jacobian, TwoSidedTakesNoJumpForASlope) {
   Case jumping = LinearCase::Make({2e-5, 4e-5}, 1, 0);
   jumping.rig.effects = ReadingOfK("x + (k > 0.5 ? 1e-5 : 0)", 0.45);
@@ -88,8 +89,8 @@ TEST(Jacobian, TwoSidedTakesNoJumpForASlope) {
   EXPECT_EQ(Jacobian(model, h, {0}, fraction, nullptr, DifferenceSides::kTwoSided).norm(), 0);
 }
 
-// A reading that bends, x + 0.1 mm k²: a step of 0.5 from k = 0.1 moves it by 35 floors, three and a half times as much
-// as its slope says, and is taken again smaller.
+// A reading that bends, x + 0.1 mm k²: a step of 0.5 from k = 0.1 moves it by 35 floors, three and
+// a half times as much as its slope says, and is taken again smaller.
 TEST(Jacobian, AStepThatMovesMuchIsTakenSmaller) {
   Case bent = LinearCase::Make({2e-5, 4e-5}, 1, 0);
   bent.rig.effects = ReadingOfK("x + 1e-4 * k * k", 0.1);
@@ -119,7 +120,8 @@ TEST(Jacobian, OfSomeRecordsLeavesTheOthersZero) {
   EXPECT_NE(some.norm(), 0);
 }
 
-// Data of gain 1.07 and offset 3 um, fitted by an offset on the record at 20 um alone: 0.07 * 20 + 3.
+// Data of gain 1.07 and offset 3 um, fitted by an offset on the record at 20 um alone:
+// 0.07 * 20 + 3.
 TEST(Fit, LooksAtTheNamedRecordsOnlyAndJudgesOnAll) {
   const LinearCase c = CaseOf(1.07, 3e-6);
   FitOptions options;
@@ -146,8 +148,9 @@ TEST(Fit, FindsGainAndOffsetThatMadeTheData) {
   EXPECT_EQ(fit.penalty, 0);            // neither has a prior
 }
 
-// Where the reading is linear one set of sensitivities tells every step. Fitted records: three predictions as
-// sampled of the start and of each step, and once three coarse ones of the start and of each parameter moved.
+// Where the reading is linear one set of sensitivities tells every step. Fitted records: three
+// predictions as sampled of the start and of each step, and once three coarse ones of the start and
+// of each parameter moved.
 TEST(Fit, TakesSensitivitiesOnceWhereTheyTellTheSteps) {
   const LinearCase c = CaseOf(1.07, 3e-6);
   FitOptions options;
@@ -188,7 +191,8 @@ TEST(Fit, ADelayIsKnownToASwitchingPeriodAtBest) {
   EXPECT_NEAR(fit.sd[1], 1 / c.data.rig.amplifier.switching_frequency / std::sqrt(12.0), 1e-12);
 }
 
-// Data that lie beyond a bound leave the parameter there, with a warning and the error that remains.
+// Data that lie beyond a bound leave the parameter there, with a warning and the error that
+// remains.
 TEST(Fit, StaysInsideBoundsAndSaysSo) {
   const LinearCase c = CaseOf(1.07, 0);
   Hypothesis start = c.With({LinearCase::Gain(1.02)});
@@ -203,7 +207,8 @@ TEST(Fit, StaysInsideBoundsAndSaysSo) {
   EXPECT_THAT(fit.warnings, ::testing::Contains(::testing::HasSubstr("is at its bound 1.04")));
 }
 
-// Beside a gain that is held at its bound the offset takes what is left: 0.03 times the mean position more than its own.
+// Beside a gain that is held at its bound the offset takes what is left: 0.03 times the mean
+// position more than its own.
 TEST(Fit, FindsTheOthersBesideOneThatIsAtItsBound) {
   const LinearCase c = CaseOf(1.07, 3e-6);
   Hypothesis start = c.With({LinearCase::Gain(1.02), LinearCase::Offset(1e-6)});

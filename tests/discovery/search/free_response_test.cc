@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kLineNoise = 2e-7;  // [m]
 
-/// Levitated records without loads in which nothing moves: constant currents, readings of white noise.
+/// Levitated records without loads in which nothing moves: constant currents, readings of white
+/// noise.
 Case RestingRecords() {
   RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
@@ -33,8 +34,8 @@ Case RestingRecords() {
   return c;
 }
 
-// Both directions together have the power of x and of y: 12 sigma^2/n of each line, with Hann's window 1 - cos of mean
-// square 1.5 and lines of 2/n times the sum.
+// Both directions together have the power of x and of y: 12 sigma^2/n of each line, with Hann's
+// window 1 - cos of mean square 1.5 and lines of 2/n times the sum.
 TEST(FreeResponse, TheScaleOfALineIsThatOfTheNoise) {
   const Case c = RestingRecords();
   CaseModel model(c);

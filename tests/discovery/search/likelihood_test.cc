@@ -55,8 +55,8 @@ TEST(Score, IsTheMisfitOfAllRecordsAndThePriceOfEveryNumber) {
   EXPECT_NEAR(Score(c.model, 1.01, 1.01, 1e6, 0, 0), Misfit(1.01, 1e4), 1e-9);
 }
 
-// A kind of effect costs 4 once, its numbers ln n each, six of one effect at most; the rig's own are
-// priced by their prior.
+// A kind of effect costs 4 once, its numbers ln n each, six of one effect at most; the rig's own
+// are priced by their prior.
 TEST(Score, AnEffectCostsItsLawOnceAndItsNumbersEach) {
   const LinearCase c = Quarter();
   FitResult fit;

@@ -139,7 +139,8 @@ TEST(LinearJudge, TheWrongEffectLeavesTheErrorOfLeastSquares) {
               std::abs(o - a * kJudgeX.back()) / std::sqrt(2.0) / LinearCase::kFloor, 1e-4);
 }
 
-// An effect that is fitted already has no drawing to stay near: it moves without a penalty when another one joins it.
+// An effect that is fitted already has no drawing to stay near: it moves without a penalty when
+// another one joins it.
 TEST(LinearJudge, AFittedEffectMovesWithoutAPenalty) {
   const LinearCase c(kJudgeX, 1.1, 7e-6);
   const FitResult base = Fit(c.model, c.With({LinearCase::Gain(1.05)}), {});

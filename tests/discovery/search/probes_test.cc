@@ -43,8 +43,8 @@ TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
   }
 }
 
-// Eddy currents of a tenth of the smallest usual size would otherwise promise to make everything worse (practice case 4
-// of seed 17).
+// Eddy currents of a tenth of the smallest usual size would otherwise promise to make everything
+// worse (practice case 4 of seed 17).
 TEST(Probes, TheWeakestOfWhatVanishesAtInfinityMayBeScaledToNothing) {
   const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
@@ -63,8 +63,9 @@ TEST(Probes, TheWeakestOfWhatVanishesAtInfinityMayBeScaledToNothing) {
   }
 }
 
-// Fringing flux that pulls looks like a larger pole area, one that does not like nothing else: with the first alone an
-// effect of 8.6 floors, of which the rig parameters had taken up most, was not among the candidates (practice case 12 of seed 5).
+// Fringing flux that pulls looks like a larger pole area, one that does not like nothing else: with
+// the first alone an effect of 8.6 floors, of which the rig parameters had taken up most, was not
+// among the candidates (practice case 12 of seed 5).
 TEST(Probes, AShapeThatMayBeLeftOutIsTriedWithoutWhateverSwitchesItsLaw) {
   const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
@@ -80,8 +81,8 @@ TEST(Probes, AShapeThatMayBeLeftOutIsTriedWithoutWhateverSwitchesItsLaw) {
   }
 }
 
-// A bus with little capacitance follows every period, one with much the mean: of three shapes one is
-// near.
+// A bus with little capacitance follows every period, one with much the mean: of three shapes one
+// is near.
 TEST(Probes, WhatIsSwitchedFromAFiniteNullIsTriedAtBothEndsOfWhatShapesIt) {
   const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");

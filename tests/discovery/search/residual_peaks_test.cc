@@ -50,8 +50,8 @@ TEST(ResidualPeaks, FindsATone) {
   EXPECT_FALSE(peaks.ShowsNoTone("A"));
 }
 
-// Beyond the grid, and in records whose lines are finer than it: between two of its frequencies a line of 5 s is not
-// seen.
+// Beyond the grid, and in records whose lines are finer than it: between two of its frequencies a
+// line of 5 s is not seen.
 TEST(ResidualPeaks, FindsTonesThatNoGridReaches) {
   Case c = LevitatedRecords();
   for (const double tone : {431.3, 1503.7}) {
@@ -72,8 +72,8 @@ TEST(ResidualPeaks, FindsTonesThatNoGridReaches) {
   }
 }
 
-// Noise, and an error of all frequencies, leave no tone that would be worth a simulation; what the third harmonic
-// holds speaks for its fundamental.
+// Noise, and an error of all frequencies, leave no tone that would be worth a simulation; what the
+// third harmonic holds speaks for its fundamental.
 TEST(ResidualPeaks, TriesOnlyTonesThatHoldAShare) {
   const Case c = LevitatedRecords();
   const CaseModel model(c);

@@ -1,5 +1,6 @@
-// A resonance is estimated from forces and readings: from spectra of a known oscillator, and from records of a rig
-// whose shaft bends otherwise than the uniform rod, where sensors and magnets lie on both sides of a node.
+// A resonance is estimated from forces and readings: from spectra of a known oscillator, and from
+// records of a rig whose shaft bends otherwise than the uniform rod, where sensors and magnets lie
+// on both sides of a node.
 #include "discovery/search/resonance_estimate.h"
 
 #include <gtest/gtest.h>
@@ -33,8 +34,8 @@ EffectInstance BentShaft(const std::vector<std::pair<std::string, double>>& valu
   return mode;
 }
 
-/// Both directions at one speed: random forces, and what an oscillator of these gains answers, beside forces
-/// that are 4 % larger and 20 us later than measured on a shaft of 2 kg.
+/// Both directions at one speed: random forces, and what an oscillator of these gains answers,
+/// beside forces that are 4 % larger and 20 us later than measured on a shaft of 2 kg.
 std::vector<FreeResponse> Oscillator(const ResonanceEstimate& truth, double speed) {
   std::mt19937 draw(7);
   std::normal_distribution<double> normal;
@@ -130,8 +131,9 @@ TEST(ResonanceEstimate, AToneOfAnotherOriginIsNone) {
   EXPECT_TRUE(EstimateResonances(responses, 3).empty());
 }
 
-// Of two bearings and their sensors a mode's gains are the products of its shape there; of a base they are all
-// one over its mass, since it moves by the sum of both forces and all sensors move with it.
+// Of two bearings and their sensors a mode's gains are the products of its shape there; of a base
+// they are all one over its mass, since it moves by the sum of both forces and all sensors move
+// with it.
 TEST(ResonanceGains, AreProductsOfTheShapeAndOneOverTheMass) {
   const RigParameters rig = RigOf("small_spindle");
   const EffectInstance bent =
@@ -208,7 +210,8 @@ TEST(FreeResponses, OfARigidShaftAgreeWithTheModel) {
     }
 }
 
-// Its ring lasts as long as the record, and no frequency of the signals is near: sharper than a line of the records.
+// Its ring lasts as long as the record, and no frequency of the signals is near: sharper than a
+// line of the records.
 TEST(ResonanceEstimate, OfRecordsTellsAModeSharperThanALine) {
   const RigParameters rig = RigOf("small_spindle");
   const EffectInstance truth = BentShaft({{"frequency", 175.3},
@@ -248,7 +251,8 @@ TEST(ResonanceStarts, OfRecordsAreNearTheModeOfAnotherRod) {
   EXPECT_NEAR(starts[0].Value("frequency"), 327, 8);
   EXPECT_NEAR(starts[0].Value("gyro"), 0.1, 0.05);
   EXPECT_NEAR(starts[0].Value("length"), 0.8, 0.08);
-  // bearings near a node: what the forces make of the readings is told better than the gains one by one
+  // bearings near a node: what the forces make of the readings is told better than the gains one by
+  // one
   const Eigen::Matrix2d found = ResonanceGains(rig, starts[0]), wanted = ResonanceGains(rig, truth);
   EXPECT_LT((found - wanted).norm(), 0.3 * wanted.norm()) << found << "\n" << wanted;
 }

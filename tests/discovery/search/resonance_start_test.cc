@@ -103,7 +103,8 @@ TEST_F(ResonanceStartTest, StartsAreJudgedByTheirSimulation) {
   EXPECT_NEAR(FittedEffect(fit, 0).Value("frequency"), 35, 0.4);
 }
 
-// Where a start that the records gave explains much, no frequency of a grid is simulated; else all are.
+// Where a start that the records gave explains much, no frequency of a grid is simulated; else all
+// are.
 TEST_F(ResonanceStartTest, AnEstimateThatExplainsMuchSparesTheGrid) {
   CaseModel model(data_, 4);
   const FitResult base = Simulated(model);
@@ -117,12 +118,13 @@ TEST_F(ResonanceStartTest, AnEstimateThatExplainsMuchSparesTheGrid) {
     return model.runs - before;
   };
   const long near = runs_of(BaseOf(90, 35, 0.02)), far = runs_of(BaseOf(90, 150, 0.02));
-  // four sizes of the estimate; of the grid two sizes of every frequency and two more of the better two
+  // four sizes of the estimate; of the grid two sizes of every frequency and two more of the better
+  // two
   EXPECT_EQ(far, near / 4 * (4 + 3 * 2 + 2 * 2));
 }
 
-// Frequencies far apart and one damping: the valley is found by simulation in several sizes, and the
-// climb ends beside the truth without a single sensitivity.
+// Frequencies far apart and one damping: the valley is found by simulation in several sizes, and
+// the climb ends beside the truth without a single sensitivity.
 TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
   CaseModel model(data_, 4);
   const FitResult base = Simulated(model);
@@ -150,7 +152,8 @@ TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
   EXPECT_NEAR(std::log(best.effect.Value("mass") / 90), 0, 0.35);
 }
 
-// Beside an effect that was adopted a start has to explain a tenth of what is left; alone any gain is pursued.
+// Beside an effect that was adopted a start has to explain a tenth of what is left; alone any gain
+// is pursued.
 TEST_F(ResonanceStartTest, BesideAnEffectAStartHasToExplainAPart) {
   CaseModel model(data_, 4);
   const FitResult base = Simulated(model);
@@ -169,7 +172,8 @@ TEST_F(ResonanceStartTest, BesideAnEffectAStartHasToExplainAPart) {
   EXPECT_FALSE(alone.Explains({starts[0].effect, alone.here() - 3, 0.5}));
 }
 
-// What an adopted law leaves in detail is not worth as many climbs: the two best starts find the truth.
+// What an adopted law leaves in detail is not worth as many climbs: the two best starts find the
+// truth.
 TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
   Candidate candidate;
   candidate.narrow = true;
@@ -193,7 +197,8 @@ TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
   EXPECT_LT(runs[1], runs[0]);
 }
 
-// Effects that were found hide no mode from an estimate: beside them a start that explains nothing ends the search.
+// Effects that were found hide no mode from an estimate: beside them a start that explains nothing
+// ends the search.
 TEST_F(ResonanceStartTest, BesideAnEffectEstimatesAreEnough) {
   CaseModel model(data_, 4);
   const FitResult beside = BesideNothing(Simulated(model));
@@ -204,7 +209,8 @@ TEST_F(ResonanceStartTest, BesideAnEffectEstimatesAreEnough) {
   EXPECT_FALSE(ScanStarts(search, GridOf({33.0, 70.0, 120.0}), {}).empty());
 }
 
-// Friction in a contact that never comes: its ends change nothing, and the sizes between are not simulated.
+// Friction in a contact that never comes: its ends change nothing, and the sizes between are not
+// simulated.
 TEST_F(ResonanceStartTest, ContactThatChangesNothingIsTriedAtItsEndsOnly) {
   CaseModel model(data_, 4);
   const FitResult base = Simulated(model);

@@ -115,7 +115,8 @@ TEST(Screen, TellsOfItsProgressAndSimulatesNothingTwice) {
   }
 }
 
-// What no effect of a reading explains may be one coil's, also where the coils were not tried at first.
+// What no effect of a reading explains may be one coil's, also where the coils were not tried at
+// first.
 TEST(Screen, TriesSingleCoilsLaterWhereAChannelStandsOut) {
   Case data = LinearCase::Make(kScreenX, 1, 0);
   for (CaseRecord& r : data.records)
@@ -145,7 +146,8 @@ TEST(Screen, TriesSingleCoilsLaterWhereAChannelStandsOut) {
   EXPECT_GT(coils(bank), 0);
 }
 
-// The readings of B are not in the case: an effect there is half of no pair, whatever the other half does.
+// The readings of B are not in the case: an effect there is half of no pair, whatever the other
+// half does.
 TEST(ScreenPairs, HoldNoEffectThatChangesNothing) {
   const LinearCase c(kScreenX, 1.08, 2e-6);
   const FitResult base = c.Base();

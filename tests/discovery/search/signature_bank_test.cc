@@ -1,4 +1,5 @@
-// Signatures of probes of a linear reading and their products, in closed form, however many are asked for at once.
+// Signatures of probes of a linear reading and their products, in closed form, however many are
+// asked for at once.
 #include "discovery/search/signature_bank.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,9 @@
 namespace ambrig {
 namespace {
 
-// One group of 30 probes is more than a chunk holds, and is simulated all the same; five smaller ones follow.
-// signature = (gain - 1) x/floor in every row of A.x, so that the products are sums of squares of x.
+// One group of 30 probes is more than a chunk holds, and is simulated all the same; five smaller
+// ones follow. signature = (gain - 1) x/floor in every row of A.x, so that the products are sums of
+// squares of x.
 TEST(SignatureBank, AGroupLargerThanAChunkIsSimulated) {
   const LinearCase c({2e-5, 4e-5, 6e-5, 5e-5}, 1.08, 0);
   std::vector<ProbeGroup> groups(6);
@@ -49,8 +51,8 @@ TEST(SignatureBank, AGroupLargerThanAChunkIsSimulated) {
     }
 }
 
-// A pull of a motor that its bearings cannot hold throws a small rotor off: less of it tells its signature all the
-// same, and so do smaller steps its slope.
+// A pull of a motor that its bearings cannot hold throws a small rotor off: less of it tells its
+// signature all the same, and so do smaller steps its slope.
 TEST(SignatureBank, WhatThrowsASmallRotorOffIsTakenSmaller) {
   const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/small_spindle/rig.toml");

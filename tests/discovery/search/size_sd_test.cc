@@ -34,8 +34,8 @@ TEST(SdOfSizes, WithoutAShapeItIsTheCovariance) {
   EXPECT_NEAR(sd[2], std::sqrt(covariance(2, 2)), 1e-12);
 }
 
-// A low pass has one number, its frequency: it switches the effect. A resonance has amplitude, frequency and
-// damping; with the latter two held the amplitude is known better.
+// A low pass has one number, its frequency: it switches the effect. A resonance has amplitude,
+// frequency and damping; with the latter two held the amplitude is known better.
 TEST(SdOfSizes, ShapesAreHeldAndHaveNone) {
   const RigParameters rig = [] {
     RigParameters r = ReferenceRig();

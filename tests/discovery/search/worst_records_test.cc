@@ -1,4 +1,5 @@
-// Predictions of some records only, and signatures that are completed when more records are asked for.
+// Predictions of some records only, and signatures that are completed when more records are asked
+// for.
 #include "discovery/search/worst_records.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #pragma once
-/// Bearing A held off centre, four of its coils ramped: currents and forces tell the law of its iron.
+/// Bearing A held off centre, four of its coils ramped: currents and forces tell the law of its
+/// iron.
 #include "core/math/noise.h"
 #include "discovery/experiment/examination.h"
 #include "effects/catalogue.h"

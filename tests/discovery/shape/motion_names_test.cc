@@ -1,5 +1,5 @@
-// Forces of the motion whose law is of another form than the catalogue's: what the law leaves its free shape explains, and
-// the name is told from those that only resemble it.
+// Forces of the motion whose law is of another form than the catalogue's: what the law leaves its
+// free shape explains, and the name is told from those that only resemble it.
 #include <gtest/gtest.h>
 
 #include "discovery/practice/laws/practice_law.h"
@@ -48,7 +48,8 @@ TEST(JudgeMotionByShape, ACouplingOfManyOrdersKeepsItsName) {
       "coupling-misalignment at A", 1.03);
 }
 
-// A spring that takes hold beyond some play holds the shaft back: no motor does that, whatever its shape.
+// A spring that takes hold beyond some play holds the shaft back: no motor does that, whatever its
+// shape.
 TEST(JudgeMotionByShape, APullThatHoldsTheShaftBackIsNotAskedForItsShape) {
   const std::string f =
       "(-60000 * max(sqrt(x*x + y*y + 1e-20) - 5e-6, 0) / sqrt(x*x + y*y + 1e-20))";

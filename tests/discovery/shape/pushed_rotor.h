@@ -1,6 +1,6 @@
 #pragma once
-/// A rotor that runs up while bearing A pushes it: its readings there tell forces of the motion and sensors from each
-/// other.
+/// A rotor that runs up while bearing A pushes it: its readings there tell forces of the motion and
+/// sensors from each other.
 #include <memory>
 #include <string>
 
@@ -12,7 +12,8 @@ namespace ambrig {
 
 inline constexpr double kReadingNoise = 1e-7, kMotionN = 2000;  // [m], independent numbers
 
-/// The rotor, running up, pushed at bearing A by three tones in each axis; its readings there count.
+/// The rotor, running up, pushed at bearing A by three tones in each axis; its readings there
+/// count.
 inline Case PushedCase() {
   RigParameters rig = ReferenceRig();
   rig.tolerances.clear();
@@ -29,7 +30,8 @@ inline Case PushedCase() {
   return EmptyCase(rig, {{"pushed", text, false, false}});
 }
 
-/// The measured case: of a machine with the effect `truth`; only the readings at A count, their floors are the noise.
+/// The measured case: of a machine with the effect `truth`; only the readings at A count, their
+/// floors are the noise.
 struct PushedRotor {
   explicit PushedRotor(const EffectInstance& truth) : data(PushedCase()) {
     Hypothesis machine = Hypothesis::Base(data.rig);

@@ -1,5 +1,6 @@
-// The gain of a position sensor in a free shape: what stands in the rig file is the curve of the report, and sensors of
-// other laws than a constant gain are found. Their plants are formulas that this shape cannot make exactly.
+// The gain of a position sensor in a free shape: what stands in the rig file is the curve of the
+// report, and sensors of other laws than a constant gain are found. Their plants are formulas that
+// this shape cannot make exactly.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,8 +46,8 @@ TEST(ReadingShape, RefusesWhatHasNoCurve) {
   EXPECT_THROW(ShapeOf(GainAt("Z", 1.1), ReferenceRig(), {.radius = 6e-5}), InputError);
 }
 
-/// Error over the noise that the fitted constant gain leaves and that its free shape leaves; the shape's curve where the
-/// records drive it.
+/// Error over the noise that the fitted constant gain leaves and that its free shape leaves; the
+/// shape's curve where the records drive it.
 struct FoundReading {
   double law = 0, refined = 0;
   Shape shape;

@@ -78,8 +78,8 @@ TEST(ShapeFit, ClaimsNothingWhereNoRecordGoes) {
   EXPECT_GT(fit.CurveSd(shape, 2 * reach), 20 * fit.CurveSd(shape, 0.8 * reach));
 }
 
-// A curve sin(c0/1e-3 + c1 u): its slopes in the sizes are known, its sd is their sum with the posterior's covariance, the
-// support what the records took of the prior's.
+// A curve sin(c0/1e-3 + c1 u): its slopes in the sizes are known, its sd is their sum with the
+// posterior's covariance, the support what the records took of the prior's.
 TEST(ShapeFit, TheSdOfACurveIsThatOfItsSlopes) {
   Shape shape;
   shape.step = Eigen::Vector2d(1e-3, 0.5);

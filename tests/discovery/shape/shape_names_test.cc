@@ -1,4 +1,5 @@
-// Iron whose law is of another form than the catalogue's keeps its name, because the law's shape is fitted.
+// Iron whose law is of another form than the catalogue's keeps its name, because the law's shape is
+// fitted.
 #include "discovery/shape/shape_names.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,8 @@ const RankedEffect* NamedIn(const std::vector<RankedEffect>& ranking, const std:
   return nullptr;
 }
 
-// Neither law of the catalogue follows a ring that holds back a part of the flux; the free shape does.
+// Neither law of the catalogue follows a ring that holds back a part of the flux; the free shape
+// does.
 TEST(JudgeByShape, AClosedRingIsEddyCurrents) {
   const RankedTwice judged = RankTwice({IronAtA("eddy-impedance", {{"r3", 0.06}, {"r4", 0.04}})});
   const RankedEffect& best = judged.after.at(0);
@@ -45,8 +47,8 @@ TEST(JudgeByShape, AClosedRingIsEddyCurrents) {
   EXPECT_GT(best.probability, 0.95);
 }
 
-// Free relaxations come near to loops of two widths, nearer than the catalogue's diffusion by far; free operators are these
-// loops.
+// Free relaxations come near to loops of two widths, nearer than the catalogue's diffusion by far;
+// free operators are these loops.
 TEST(JudgeByShape, LoopsOfTwoWidthsStayHysteresis) {
   const RankedTwice judged =
       RankTwice({IronAtA("hysteresis", {{"coercive", 0.05}, {"width", 0.02}}),

@@ -19,9 +19,9 @@ EffectInstance Named(const std::string& id, const Values& values, const std::str
   return e;
 }
 
-// The start is the law that was named. A path linear between nodes h apart integrates to more than a
-// convex one: by h²/12 times the growth of the drop's second derivative (trapezoidal rule; half as
-// much again for its next term).
+// The start is the law that was named. A path linear between nodes h apart integrates to more than
+// a convex one: by h²/12 times the growth of the drop's second derivative (trapezoidal rule; half
+// as much again for its next term).
 TEST(Shape, StartsAtTheSteelCurve) {
   constexpr double kReach = 0.55, kKnee = 0.5, kPath = 0.08, h = kReach / 12;
   const Shape s = ShapeOf(Named("saturation", {{"knee", kKnee}, {"path", kPath}}), ReferenceRig(),
@@ -38,8 +38,8 @@ TEST(Shape, StartsAtTheSteelCurve) {
   }
 }
 
-// Steel needs MMF at low flux beyond its path: threshold x/(1 + x), x = B/0.2 T. Trapezoidal rule as
-// above; the drop's second derivative falls from 2 threshold/(0.2 T)² in size.
+// Steel needs MMF at low flux beyond its path: threshold x/(1 + x), x = B/0.2 T. Trapezoidal rule
+// as above; the drop's second derivative falls from 2 threshold/(0.2 T)² in size.
 TEST(Shape, StartsAtTheReluctanceOfSteel) {
   constexpr double kReach = 0.6, kPath = 2e-5, kThreshold = 5, h = kReach / 12;
   const Shape s = ShapeOf(Named("iron-reluctance", {{"path", kPath}, {"threshold", kThreshold}}),
@@ -69,7 +69,8 @@ TEST(Shape, HysteresisKeepsItsCoerciveCurrent) {
               1e-12);  // all operators slip beyond three times the width
 }
 
-// The law's radii are evenly spread up to its width: an operator stands for those next below its own radius.
+// The law's radii are evenly spread up to its width: an operator stands for those next below its
+// own radius.
 TEST(Shape, HysteresisStartsWithTheOperatorsOfItsWidth) {
   const Shape s = ShapeOf(Named("hysteresis", {{"coercive", 0.08}, {"width", 0.2}}), ReferenceRig(),
                           {.density = 0.32});
@@ -145,8 +146,8 @@ RotorForces ForcesOf(const EffectInstance& e, double theta) {
   return forces;
 }
 
-// It starts at the catalogue's force, and other orders turn as the curve says: forward ones with the shaft, backward ones
-// against it.
+// It starts at the catalogue's force, and other orders turn as the curve says: forward ones with
+// the shaft, backward ones against it.
 TEST(Shape, TheSeriesOfACouplingIsThatOfTheCurve) {
   const EffectInstance law = Named("coupling-misalignment", {{"c", 3}, {"s", -1}});
   Shape s = ShapeOf(law, ReferenceRig(), {});

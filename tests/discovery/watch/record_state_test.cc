@@ -62,7 +62,8 @@ TEST(RecordBands, NoiseLeavesThemByHalfOfItself) {
   EXPECT_TRUE(FindLeftBands(now, was).empty());
 }
 
-// A channel that says nothing any more cannot differ from the model: that it is gone is told by itself.
+// A channel that says nothing any more cannot differ from the model: that it is gone is told by
+// itself.
 TEST(RecordBands, AChannelThatIsGoneLeavesThem) {
   RecordState was = State(4e-4, 1e-6, 1);
   was.floors = {{"A.x", 1}, {"A.y", 1}};

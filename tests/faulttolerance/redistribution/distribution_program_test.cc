@@ -1,4 +1,5 @@
-// The nonlinear program of a distribution: every derivative against differences of what it is the derivative of.
+// The nonlinear program of a distribution: every derivative against differences of what it is the
+// derivative of.
 #include "faulttolerance/redistribution/distribution_program.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,8 @@ class DistributionDerivatives : public ::testing::TestWithParam<ProgramCase> {
   SmallVector x_;
 };
 
-// Third derivatives are of order 10 here, so that the differences err by 1e-9 and rounding by 1e-10.
+// Third derivatives are of order 10 here, so that the differences err by 1e-9 and rounding by
+// 1e-10.
 constexpr double kAllowed = 1e-7;
 
 TEST_P(DistributionDerivatives, GradientOfTheObjective) {

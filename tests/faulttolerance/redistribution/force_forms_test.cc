@@ -181,7 +181,8 @@ TEST(RedistributionProblem, HasTheDrawingsAnglesAndWinding) {
   EXPECT_EQ(p.gap, 4e-4);
 }
 
-// The six pairs of columns, each for both axes, in their order: bias alone, gains, then what grows with |v|².
+// The six pairs of columns, each for both axes, in their order: bias alone, gains, then what grows
+// with |v|².
 TEST(ForceForms, ErrorsAreThoseOfEveryPairOfColumns) {
   const ForceForms forms = MakeForceForms(ProblemWith());
   DistributionMatrix W;

@@ -33,8 +33,8 @@ TEST(InverseAllocation, FollowsForcesAndAddsTheStiffnessThatTheControllerKnows) 
   EXPECT_NEAR((moved.Force(current) - Eigen::Vector2d(9.5 + 1e5 * 2e-5, 59)).norm(), 0, 0.05);
 }
 
-// Without any current the force has no gradient and no step leads anywhere: after eight periods a search finds currents, and the
-// force is met from then on.
+// Without any current the force has no gradient and no step leads anywhere: after eight periods a
+// search finds currents, and the force is met from then on.
 TEST(InverseAllocation, SearchesOnceWhereItIsStuck) {
   ForceInverse stuck(FourQuadrants());
   stuck.SetCurrents(CoilVector::Zero());
@@ -51,7 +51,8 @@ TEST(InverseAllocation, SearchesOnceWhereItIsStuck) {
               0.05);
 }
 
-// A coil without current cannot go below it where currents have one sign: it gives no control there.
+// A coil without current cannot go below it where currents have one sign: it gives no control
+// there.
 TEST(InverseAllocation, ACoilAtItsLimitGivesNoControl) {
   for (const int quadrants : {2, 4}) {
     RedistributionProblem p = FourQuadrants();

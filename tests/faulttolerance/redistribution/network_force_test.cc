@@ -1,5 +1,5 @@
-// The force of a bearing with failed coils: against the simulator's stator, its own derivatives, and the
-// symmetries of the winding.
+// The force of a bearing with failed coils: against the simulator's stator, its own derivatives,
+// and the symmetries of the winding.
 #include "faulttolerance/redistribution/network_force.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ TEST(NetworkForce, IsThatOfTheSimulatorsStator) {
   }
 }
 
-// A coil without turns pulls at nothing, whatever flows in it; half the turns need twice the current.
+// A coil without turns pulls at nothing, whatever flows in it; half the turns need twice the
+// current.
 TEST(NetworkForce, ShortedTurnsScaleTheirCurrent) {
   RedistributionProblem whole = Problem(), half = Problem(), dead = Problem();
   half.turns_left[2] = 0.5;
@@ -81,7 +82,8 @@ TEST(NetworkForce, GradientIsTheDerivativeOverTheCurrents) {
   }
 }
 
-// F_a = i'Q^a i: with y the same vector in one row, the contraction gives back the force, i'(Q^a i).
+// F_a = i'Q^a i: with y the same vector in one row, the contraction gives back the force, i'(Q^a
+// i).
 TEST(NetworkForce, ContractionIsHalfTheGradientOfItsVector) {
   NetworkForce force(Problem());
   force.MoveTo(-9e-5, 3e-5);
@@ -93,8 +95,8 @@ TEST(NetworkForce, ContractionIsHalfTheGradientOfItsVector) {
   }
 }
 
-// Fluxes in air only: the forces are gradients of one energy, so the stiffness at fixed fluxes would be
-// symmetric; at fixed currents it is too (co-energy), and it pulls away: a positive trace.
+// Fluxes in air only: the forces are gradients of one energy, so the stiffness at fixed fluxes
+// would be symmetric; at fixed currents it is too (co-energy), and it pulls away: a positive trace.
 TEST(NetworkForce, StiffnessIsSymmetricAndPullsAway) {
   NetworkForce force(Problem());
   for (const double seed : {0.0, 1.0, 2.5}) {

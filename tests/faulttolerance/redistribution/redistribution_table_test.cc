@@ -97,8 +97,8 @@ TEST(RedistributionTable, CountsOfAllSets) {
     EXPECT_EQ(count[6], (std::map<SolvabilityClass, int>{{kNone, 28}}));
     EXPECT_EQ(count[7], (std::map<SolvabilityClass, int>{{kNone, 8}}));
     EXPECT_EQ(count[8], (std::map<SolvabilityClass, int>{{kNone, 1}}));
-    // Only one set of each orbit of the symmetries is solved (all of them cold took 24 s): with 16 symmetries these are
-    // the 29 bracelets of eight beads in two colours that are not all healthy.
+    // Only one set of each orbit of the symmetries is solved (all of them cold took 24 s): with 16
+    // symmetries these are the 29 bracelets of eight beads in two colours that are not all healthy.
     const auto solved = nlohmann::json::parse(Contents(table.cache_file()))["entries"].size();
     if (FindSymmetries(ProblemOf(winding)).size() == 16) {
       EXPECT_EQ(solved, 29u);

@@ -113,7 +113,8 @@ TEST(StatorDistribution, HomopolarCarriesOnWithAnyCoilLost) {
   }
 }
 
-// The coil of one side drives both gaps, but for what goes through the magnet: a term with v² is left.
+// The coil of one side drives both gaps, but for what goes through the magnet: a term with v² is
+// left.
 TEST(StatorDistribution, ThrustWithAMagnetCarriesOnWithOneSide) {
   StatorParameters s = Stator("axial-pm", 0);
   s.connection = "side";
@@ -128,9 +129,9 @@ TEST(StatorDistribution, ThrustWithAMagnetCarriesOnWithOneSide) {
   EXPECT_NEAR(WorstForce(p, d.W, d.rho), 0.5 * d.residual * d.rho, 1e-8);
 }
 
-// Counted independently too, by SciPy's trust-region least squares from 40 random starts a set (which counts 56, 6
-// and 0 of eight coils that lost three, four and five, as redistribution.md has it). Published counts of six and
-// twelve coils were not found.
+// Counted independently too, by SciPy's trust-region least squares from 40 random starts a set
+// (which counts 56, 6 and 0 of eight coils that lost three, four and five, as redistribution.md has
+// it). Published counts of six and twelve coils were not found.
 TEST(StatorDistribution, SetsOfSixCoilsThatCanBeSolved) {
   const StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", 6), 1.5, false);
   int exact[7] = {}, linearised[7] = {};
@@ -150,8 +151,8 @@ TEST(StatorDistribution, SetsOfSixCoilsThatCanBeSolved) {
   EXPECT_THAT(linearised, ::testing::ElementsAre(0, 0, 0, 20, 0, 0, 0));
 }
 
-/// The sets of n lost coils of `coils` evenly spaced ones, one of each that rotations and mirrors make alike, and
-/// how many are like it.
+/// The sets of n lost coils of `coils` evenly spaced ones, one of each that rotations and mirrors
+/// make alike, and how many are like it.
 std::map<int, int> LostUpToSymmetry(int coils, int n) {
   std::map<int, int> classes;
   for (int mask = 0; mask < 1 << coils; ++mask) {
@@ -231,7 +232,8 @@ TEST(StatorDistribution, AnAxisWithoutCoilsIsGivenUp) {
   EXPECT_EQ(SolveStator(p).cls, SolvabilityClass::kNone);
 }
 
-// Every coil's bias is bounded, the first one as the others: what is beyond is told in its own size.
+// Every coil's bias is bounded, the first one as the others: what is beyond is told in its own
+// size.
 TEST(StatorBounds, AreThoseOfEveryCoil) {
   const StatorForms forms(StatorProblemOf(Stator("one-coil-per-pole", 8), 1.5, true));
   StatorBounds bounds;

@@ -53,7 +53,8 @@ std::vector<std::string> Names() {
   return names;
 }
 
-// L_jj = P N² (1 - 1/8) + L_l of every coil, -P N²/8 between two of opposite winding (with the signs +): P = mu0 A/g.
+// L_jj = P N² (1 - 1/8) + L_l of every coil, -P N²/8 between two of opposite winding (with the
+// signs +): P = mu0 A/g.
 TEST(CurrentTransition, InductanceOfTheCoupledCoils) {
   TransitionStart s = CoilOneOpens().start;
   s.bearing.turns_left.setOnes();

@@ -60,7 +60,8 @@ TEST(FaultSupervisor, SurvivesEverySingleOpenAndHalfShort) {
     }
 }
 
-// The two windings of a side carry one flux: the one that failed is named, and the other stays in use.
+// The two windings of a side carry one flux: the one that failed is named, and the other stays in
+// use.
 TEST(FaultSupervisor, OfAThrustSideTheWindingThatFailedIsNamedAlone) {
   for (const bool commissioned : {true, false})
     for (int coil = 1; coil <= 4; ++coil) {

@@ -1,5 +1,5 @@
-// A controller that commands currents itself does not use the current map: nothing is redistributed then, and
-// nothing may say so.
+// A controller that commands currents itself does not use the current map: nothing is redistributed
+// then, and nothing may say so.
 #include "simulation/verdict/expect.h"
 #include "tests/faulttolerance/supervision/supervised_runs.h"
 
@@ -96,7 +96,8 @@ TEST(OwnSetPoints, AreNotRedistributedAndNothingSaysSo) {
   EXPECT_FALSE(expect[0].met);
 }
 
-// Regulators are told the controller's currents as before; the map alone is made ready for a controller that uses it.
+// Regulators are told the controller's currents as before; the map alone is made ready for a
+// controller that uses it.
 TEST(OwnSetPoints, KeepTheirRegulatorsIntegrals) {
   const WitnessedRun own = OpenCoilUnder("feedback-linearisation"), mapped = OpenCoilUnder("pid");
   EXPECT_EQ(own.maps, 1);

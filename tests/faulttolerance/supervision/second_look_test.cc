@@ -43,8 +43,8 @@ TEST(SecondLook, ACoilWhoseAmplifierCameBackReturnsAndIsWatchedAgain) {
   EXPECT_EQ(o.result.metrics.false_alarms, 0);
 }
 
-// Strong eddy currents that nobody commissioned: the look finds no healthy coil. It stays off, which
-// does no harm.
+// Strong eddy currents that nobody commissioned: the look finds no healthy coil. It stays off,
+// which does no harm.
 TEST(SecondLook, WithoutCommissioningADoubtfulCoilStaysOff) {
   const Outcome o =
       Simulated(Spin(0.1, 157, 3) + FaultTable(0.02, "A.coil4", "amplifier-off", "duration = 5e-3"),
@@ -185,7 +185,8 @@ TEST(SecondLook, IdleCoilsAreAskedAfterTenMillisecondsAndThenNowAndAgain) {
   EXPECT_EQ(probes.Due(0.2), -1);
 }
 
-// Every coil of a bearing that idles is due after 10 ms, one after the other 8 ms apart, and again 50 ms after its own probe.
+// Every coil of a bearing that idles is due after 10 ms, one after the other 8 ms apart, and again
+// 50 ms after its own probe.
 TEST(CoilProbes, EveryIdleCoilHasItsTurn) {
   CoilProbes probes;
   for (const int coil : {0, 3, 7}) probes.Idle(coil, true, 1.0);
@@ -204,8 +205,8 @@ TEST(CoilProbes, EveryIdleCoilHasItsTurn) {
   EXPECT_EQ(probes.Due(1.0683), 3);
 }
 
-// One current sensor after the other says that the model errs: only the first is acted on, and after a
-// probe has refuted it none of another coil.
+// One current sensor after the other says that the model errs: only the first is acted on, and
+// after a probe has refuted it none of another coil.
 TEST(CoilProbes, AFalseCurrentMakesThoseOfOtherCoilsSuspect) {
   CoilProbes probes;
   probes.GivenUp(1, FaultClass::kOpen, 0.01);

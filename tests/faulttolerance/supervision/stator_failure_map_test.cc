@@ -1,4 +1,5 @@
-// The map of any stator after failures: what of the healthy map the problem takes, and which currents come of it.
+// The map of any stator after failures: what of the healthy map the problem takes, and which
+// currents come of it.
 #include "faulttolerance/supervision/stator_failure_map.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +48,8 @@ TEST(StatorFailureMap, TheProblemIsThatOfTheHealthyMap) {
   EXPECT_TRUE(p.unipolar);
 }
 
-// With one coil lost the force is what was asked for, with the turns that are left, and no current is beyond the amplifier.
+// With one coil lost the force is what was asked for, with the turns that are left, and no current
+// is beyond the amplifier.
 TEST(StatorFailureMap, TheNewMapGivesTheForceWithoutTheLostCoil) {
   const SixPoles s;
   CoilVector turns = CoilVector::Ones();
@@ -66,7 +68,8 @@ TEST(StatorFailureMap, TheNewMapGivesTheForceWithoutTheLostCoil) {
     EXPECT_LE(i.maxCoeff(), 5);
     EXPECT_GE(i.minCoeff(), 0);
   }
-  // What of the healthy bearing's negative stiffness is lost destabilises nothing: it is only given back where it grew.
+  // What of the healthy bearing's negative stiffness is lost destabilises nothing: it is only given
+  // back where it grew.
   CurrentMap plain = s.healthy;
   StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0}), false, &plain);
   EXPECT_EQ(plain.stiffness_change.norm(), 0);

@@ -69,7 +69,8 @@ TEST(FluxCircuit, RelaxationsHaveTheFrequencyResponseOfTheirSum) {
   }
 }
 
-// What a bridge that is off says of a coil whose reading may be a sensor's zero is not judged: its diodes may block.
+// What a bridge that is off says of a coil whose reading may be a sensor's zero is not judged: its
+// diodes may block.
 TEST(FluxCircuit, LooksAtOffPhasesOfCoilsThatSurelyConductOnly) {
   const auto off_samples = [](double current) {
     return FirstPeriod({}, current).phase[1].samples[0];

@@ -80,7 +80,8 @@ TEST(MovingInverse, GoesFromOneInverseToTheOther) {
             1e-12 * moving.start.norm());
 }
 
-// Over all samples the bridge gives its mean voltage times the period, whatever sample holds the edge.
+// Over all samples the bridge gives its mean voltage times the period, whatever sample holds the
+// edge.
 TEST(DrivenLinkage, OfAllSamplesIsTheMeanVoltage) {
   Bench bench;
   const SamplingSettings s = bench.Sampling();

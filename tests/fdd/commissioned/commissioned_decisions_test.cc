@@ -65,7 +65,8 @@ TEST(CommissionedDecisions, ADeadAmplifierIsNamedAsSuchOrAsAnOpenCoil) {
   }
 }
 
-// Two volts that no duty shows are seven per cent of the slope: learnt, where the plant cannot be expressed without.
+// Two volts that no duty shows are seven per cent of the slope: learnt, where the plant cannot be
+// expressed without.
 TEST(CommissionedDecisions, BridgesThatAddAVoltageAreLearnt) {
   for (const double offset : {2.0, -2.0}) {
     const CommissionedRig plant(
@@ -197,8 +198,9 @@ TEST(CommissionedDecisions, AFaultAfterAnotherIsFoundBesideIt) {
   }
 }
 
-// Two coils that lose few turns at one instant are named together: a coil that stands out first waits for the other,
-// whose windows would begin anew after it. A healthy neighbour keeps no coil waiting.
+// Two coils that lose few turns at one instant are named together: a coil that stands out first
+// waits for the other, whose windows would begin anew after it. A healthy neighbour keeps no coil
+// waiting.
 TEST(CommissionedDecisions, TwoSmallShortsAtOneInstantAreNamedTogether) {
   for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
     for (const int other : {2, 3, 4, 5}) {

@@ -1,5 +1,5 @@
-// Faults near the end of the range of flux that was commissioned: lost turns make the flux that is computed too large.
-// Plants: the switching engine with effects.
+// Faults near the end of the range of flux that was commissioned: lost turns make the flux that is
+// computed too large. Plants: the switching engine with effects.
 #include <gtest/gtest.h>
 
 #include "tests/fdd/commissioned_plant.h"

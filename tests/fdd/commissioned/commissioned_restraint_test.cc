@@ -1,5 +1,6 @@
-// When the commissioned detector keeps silent although its numbers look like a fault: supplies that fail, readings that
-// are a little low, machines that bounce. The plants are the switching engine with effects.
+// When the commissioned detector keeps silent although its numbers look like a fault: supplies that
+// fail, readings that are a little low, machines that bounce. The plants are the switching engine
+// with effects.
 #include <gtest/gtest.h>
 
 #include "core/base/read_file.h"
@@ -35,7 +36,8 @@ TEST(CommissionedRestraint, ALowReadingIsNoFaultUntilItMatters) {
   }
 }
 
-// Saturating iron loses its rotor, and idle coils whose current stays zero were taken for open ones.
+// Saturating iron loses its rotor, and idle coils whose current stays zero were taken for open
+// ones.
 TEST(CommissionedRestraint, NothingIsConcludedOfAStrangerThatBounces) {
   const std::string campaigns = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/";
   RigParameters rig = ReadRig(campaigns + "inexact/rig.toml");
@@ -51,8 +53,9 @@ TEST(CommissionedRestraint, NothingIsConcludedOfAStrangerThatBounces) {
   }
 }
 
-// Sensors that see three lobes, which no run-out of the circuit has: the fit is refused. What half of the turns make of
-// c is no error of a motion that is read wrong, although the current keeps to its set-point.
+// Sensors that see three lobes, which no run-out of the circuit has: the fit is refused. What half
+// of the turns make of c is no error of a motion that is read wrong, although the current keeps to
+// its set-point.
 TEST(CommissionedRestraint, HalfOfTheTurnsAreMissedByAModelThatIsRefusedToo) {
   const CommissionedRig plant(
       WithEffect(ReferenceRig(), "sensor-runout", "A", {{"c3", 1.2e-5}, {"s3", 1.2e-5}}));

@@ -1,5 +1,5 @@
-// What the commissioned detector decides of shares of turns and of coils beside those outside the range learnt, on the
-// simulator's own stator under given duties.
+// What the commissioned detector decides of shares of turns and of coils beside those outside the
+// range learnt, on the simulator's own stator under given duties.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -77,8 +77,8 @@ TEST(CommissionedShares, ASmallShortIsNamedTogetherWithALargeOne) {
   }
 }
 
-// A leakage that was learnt too small is felt once a polarity has lost turns: what it does to the other polarity is within
-// what errors as large as those of healthy running can do.
+// A leakage that was learnt too small is felt once a polarity has lost turns: what it does to the
+// other polarity is within what errors as large as those of healthy running can do.
 TEST(CommissionedShares, ErrorsOfTheModelNameNobodyTogetherWithOthers) {
   LearntBench b(0.75, 0.05);
   EXPECT_FALSE(b.First(60).decided);
@@ -90,7 +90,8 @@ TEST(CommissionedShares, ErrorsOfTheModelNameNobodyTogetherWithOthers) {
   EXPECT_EQ(named, (std::set<int>{0, 2, 4, 6}));
 }
 
-// An amplifier of one direction gives nothing below zero: a coil asked for less misses no more than what it carries.
+// An amplifier of one direction gives nothing below zero: a coil asked for less misses no more than
+// what it carries.
 TEST(CommissionedShares, ASetPointBelowZeroIsMissedByTheCurrentAlone) {
   LearntBench zero, below;
   Lane none, negative;

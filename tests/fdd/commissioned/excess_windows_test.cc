@@ -54,8 +54,8 @@ TEST(ExcessWindows, TheSenseOfTheWindingsDropsOutWhereItIsTaken) {
   EXPECT_GT(std::abs(windows.Used(0, 1)[3]), 0.1);
 }
 
-// What is called calm has no used value beyond its band and no pattern beyond its limit, and a coil or a pattern that is
-// beyond is never called calm.
+// What is called calm has no used value beyond its band and no pattern beyond its limit, and a coil
+// or a pattern that is beyond is never called calm.
 TEST(ExcessWindows, CalmIsWhatNoUsedValueNorPatternDenies) {
   constexpr int kTen = 2;
   constexpr double kPattern = 0.02;
@@ -153,7 +153,8 @@ TEST(ExcessWindows, AWindowNoisierThanAskedForSaysNothing) {
   EXPECT_NEAR(windows.Used(0, 0.11)[0], 1, 1e-12);
 }
 
-// Of one phase: the ratio of its sums over the last periods, whatever the other phase says; nothing without weight.
+// Of one phase: the ratio of its sums over the last periods, whatever the other phase says; nothing
+// without weight.
 TEST(ExcessWindows, OnePhaseIsTheRatioOfItsOwnSums) {
   ExcessWindows windows(Radial());
   double top = 0, bottom = 0;

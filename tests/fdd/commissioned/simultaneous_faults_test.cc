@@ -45,7 +45,8 @@ TEST(SimultaneousFaults, OpenCoilsAreAllNamedAndNoNeighbour) {
   }
 }
 
-// The second of two is named although the detector pauses after the first, while which no other conclusion is drawn.
+// The second of two is named although the detector pauses after the first, while which no other
+// conclusion is drawn.
 TEST(SimultaneousFaults, TheOtherOpenCoilOfAPairIsNamedWhileTheDetectorPauses) {
   for (int first = 1; first <= 8; ++first)
     for (int second = first + 1; second <= 8; ++second) {
@@ -94,8 +95,8 @@ TEST(SimultaneousFaults, AnOpenCoilAndShortedOnesBesideIt) {
     EXPECT_EQ(d.cls, d.coil == 1 ? FaultClass::kOpen : FaultClass::kPartialShort) << d.coil + 1;
 }
 
-// Coils of one polarity that are shorted one after the other move the rotor's potential: what the model errs by there
-// falls on the coils of the other polarity.
+// Coils of one polarity that are shorted one after the other move the rotor's potential: what the
+// model errs by there falls on the coils of the other polarity.
 TEST(SimultaneousFaults, ShortsOfOnePolarityBlameNoneOfTheOther) {
   const std::pair<const char*, const CommissionedRig*> plants[] = {
       {"no effect", &BaseModel()}, {"slow iron", &SlowIron()}, {"thin sheets", &ThinSheets()}};
@@ -117,7 +118,8 @@ TEST(SimultaneousFaults, ASingleHalfShortBlamesNobodyElse) {
   for (const int coil : {1, 2, 3, 4, 5, 6, 7, 8}) {
     ExpectAllShortsNamed(SlowIron(), {coil}, 0.5);
     ExpectAllShortsNamed(ThinSheets(), {coil}, 0.6);
-    // Those that pull least carry 1 A: with half of the turns their current ends in every off phase.
+    // Those that pull least carry 1 A: with half of the turns their current ends in every off
+    // phase.
     ExpectAllShortsNamed(ThinSheets(), {coil}, 0.5);
   }
 }

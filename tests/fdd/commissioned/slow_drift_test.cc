@@ -110,8 +110,8 @@ RigParameters Moved(const CommissionedRig& iron, double x, double y) {
 }
 constexpr double kMoved[] = {1e-5, 0, -1e-5};  // [m]
 
-// The machine stood still while the zeros moved. Coils with saturated iron show that in no common pattern, by as much as
-// shorts of 2 to 3 %.
+// The machine stood still while the zeros moved. Coils with saturated iron show that in no common
+// pattern, by as much as shorts of 2 to 3 %.
 TEST(SlowDrift, WhatHasDriftedBeforeTheStartIsNoFault) {
   const CommissionedRig iron(WithEffect(ReferenceRig(), "saturation", "A", {{"knee", 0.45}}));
   for (const double x : kMoved)

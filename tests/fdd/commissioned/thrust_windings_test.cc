@@ -1,5 +1,5 @@
-// Windings of a thrust side: a loss of turns raises the c of both, and one without current has hardly any. The plant is the
-// switching engine with effects.
+// Windings of a thrust side: a loss of turns raises the c of both, and one without current has
+// hardly any. The plant is the switching engine with effects.
 #include <gtest/gtest.h>
 
 #include "tests/fdd/commissioned_plant.h"
@@ -44,8 +44,9 @@ TEST(ThrustWindings, OpensAndShortsAreFoundInTime) {
   }
 }
 
-// An error of the share that a winding has left is in the c of both windings of its side: a loss of the other one is not
-// named for 2500 periods, the model is doubtful instead. The other side is judged as ever.
+// An error of the share that a winding has left is in the c of both windings of its side: a loss of
+// the other one is not named for 2500 periods, the model is doubtful instead. The other side is
+// judged as ever.
 TEST(ThrustWindings, NoSecondLossOnOneSideIsNamedSoonAfterTheFirst) {
   constexpr double kWait = 2500 / 25e3;  // [s]
   const auto seen = [](int second) {

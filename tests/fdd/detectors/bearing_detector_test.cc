@@ -105,7 +105,8 @@ TEST(PeriodSlopes, ExpectedSlopeOfAnOpenCoilIsTheHealthyOne) {
   EXPECT_GT(open.expected - open.slope, 2 * open.half_width);
 }
 
-// Behind a period of which nothing is known the linkages may be anywhere: that they moved is no fault.
+// Behind a period of which nothing is known the linkages may be anywhere: that they moved is no
+// fault.
 TEST(BearingDetector, NothingIsComparedAcrossAnUnknownPeriod) {
   Bench bench;
   bench.noise = 0.004;
@@ -157,7 +158,8 @@ TEST(BearingDetector, TheOnsetIsThePeriodOfTheFault) {
     }
 }
 
-// A coil that another detector flags although all its equations hold is examined as long as is allowed, then cleared.
+// A coil that another detector flags although all its equations hold is examined as long as is
+// allowed, then cleared.
 TEST(BearingDetector, AFlagWithoutAFaultIsClearedAtTheEnd) {
   Bench bench;
   bench.noise = 0.004;

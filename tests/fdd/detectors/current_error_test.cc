@@ -73,8 +73,9 @@ TEST(CurrentError, SaysNothingWithoutASetPoint) {
     for (double v : b.Without().v) EXPECT_EQ(v, 0);
 }
 
-// A regulator that asks for more voltage than one period can use: the follower is at the set-point after one period and
-// does not pass it, so that what is beyond by 0.1 A is wrong by 0.1 A from the first period on.
+// A regulator that asks for more voltage than one period can use: the follower is at the set-point
+// after one period and does not pass it, so that what is beyond by 0.1 A is wrong by 0.1 A from the
+// first period on.
 TEST(CurrentError, AFastLoopsFollowerEndsAtItsSetPoint) {
   ErrorBench b(400);
   for (int n = 0; n < 6; ++n) b.Period(2, 2);

@@ -46,8 +46,9 @@ class FeedBench {
   int count_ = 0;
 };
 
-// Towards the stop by 5 % of the clearance per reading: as long as the next step ends within 95 % of it the path is known;
-// then it may be thrown back, by twice a step and more, until three readings have followed a parabola.
+// Towards the stop by 5 % of the clearance per reading: as long as the next step ends within 95 %
+// of it the path is known; then it may be thrown back, by twice a step and more, until three
+// readings have followed a parabola.
 TEST(DetectionFeed, NearTheStopTheShaftMayBeThrownBack) {
   FeedBench feed;
   const double c = feed.clearance(), step = 0.05 * c;

@@ -92,8 +92,8 @@ Diagnosis PhasesOf(TwoCores& cores) {
   return found;
 }
 
-// At 5 ohm and 1.8 A the copper takes 9 of 30 V. The linkage of a coil with the share a of its turns
-// moves too much, up and down, by
+// At 5 ohm and 1.8 A the copper takes 9 of 30 V. The linkage of a coil with the share a of its
+// turns moves too much, up and down, by
 //   c = (V - a R i)/(a² (V - R i)) - 1,   (V + a R i)/(a² (V + R i)) - 1:
 // 0.97 and 0.67 without a quarter of them, whose mean stands for a share of 0.26.
 TEST(LinkagePhases, AShortIsSeenBesideTheDropOfTheCopper) {

@@ -1,5 +1,5 @@
-// The resistance of a coil while it runs, on the simulator's stator: the weighted mean of what it shows and
-// of the drawing's.
+// The resistance of a coil while it runs, on the simulator's stator: the weighted mean of what it
+// shows and of the drawing's.
 #include "fdd/detectors/resistance_estimate.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,9 @@ double SquareOf(const Bench& bench, int coil) {
   return mean * mean;
 }
 
-// In a settled period the linkage comes back to where it was: mean voltage = R mean current. With the
-// memory of 0.1 s the estimate is (i² n R + 4000 R0)/(i² n + 4000), n = 2500 (1 - e^(-t/0.1 s)) periods.
+// In a settled period the linkage comes back to where it was: mean voltage = R mean current. With
+// the memory of 0.1 s the estimate is (i² n R + 4000 R0)/(i² n + 4000), n = 2500 (1 - e^(-t/0.1 s))
+// periods.
 TEST(ResistanceEstimate, WeighsTheRunAgainstTheDrawing) {
   Bench bench;
   SetDuty(bench);

@@ -16,8 +16,8 @@ double Largest(const Lane& statistic) {
   return *std::max_element(statistic.v, statistic.v + kLanes);
 }
 
-// Copper of 0.9 ohm where the drawing says 0.5: at 2 A the model's slopes are wrong by 0.8 V over some mH, until the
-// resistance is known (forgetting 40 ms).
+// Copper of 0.9 ohm where the drawing says 0.5: at 2 A the model's slopes are wrong by 0.8 V over
+// some mH, until the resistance is known (forgetting 40 ms).
 TEST(SlopePrediction, LearnsTheResistanceWhileItRuns) {
   Bench bench;
   for (int j = 0; j < kLanes; ++j) {

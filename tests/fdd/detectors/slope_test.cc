@@ -107,7 +107,8 @@ TEST(PaperSlope, SingularSlopesAreCancelled) {
   EXPECT_DOUBLE_EQ(m.decreasing, -1);
 }
 
-// Numbers that are exact in binary: slopes of +-3 A/s. A limit belongs to the range, all that is beyond does not.
+// Numbers that are exact in binary: slopes of +-3 A/s. A limit belongs to the range, all that is
+// beyond does not.
 TEST(PaperSlope, ASlopeAtALimitIsWithin) {
   for (const auto& [bus, margin, expected] : {std::tuple{2.0, 1.0, FaultClass::kNone},
                                               {2.0, 0.5, FaultClass::kPartialShort},

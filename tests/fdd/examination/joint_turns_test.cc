@@ -68,8 +68,9 @@ TEST(JointTurns, EverySetOfShortedCoilsIsSolvedWithItsShares) {
   }
 }
 
-// What is left of a coil follows from its own c, but for its pull on the rotor's potential. With one polarity shorted
-// the other hangs on that potential alone: an error of c moves its shares by several times as much.
+// What is left of a coil follows from its own c, but for its pull on the rotor's potential. With
+// one polarity shorted the other hangs on that potential alone: an error of c moves its shares by
+// several times as much.
 TEST(JointTurns, SharesSayHowFarAnErrorMovesThem) {
   JointTurnsBench one, polarity;
   one.Short(0, 0.5);
@@ -142,9 +143,9 @@ std::optional<JointShares> SharesOfThrust(const std::array<double, 4>& lost) {
   return joint.Solve(filter, NominalBearing("Z", filter.nominal()).coils, {}, all, {});
 }
 
-// One winding that has lost turns is told from two that have, whichever it is and on both sides (0.7 would drive its
-// current beyond the converter's range in these periods). Noise of a reading moves
-// a share by some percent: the windings of a side differ in their leakage alone.
+// One winding that has lost turns is told from two that have, whichever it is and on both sides
+// (0.7 would drive its current beyond the converter's range in these periods). Noise of a reading
+// moves a share by some percent: the windings of a side differ in their leakage alone.
 TEST(JointTurns, OfTheWindingsOfAThrustSideTheOneThatFailed) {
   const std::array<double, 4> sets[] = {{0.5, 0, 0, 0},  {0, 0.5, 0, 0},   {0, 0, 0.3, 0},
                                         {0, 0, 0, 0.6},  {0.5, 0, 0, 0.3}, {0.5, 0.5, 0, 0},

@@ -10,9 +10,10 @@ namespace {
 
 using namespace testing_bench;
 
-// The voltage of a healthy coil is the flux slope that the others tell, its leakage and its copper: v = F + L_l di/dt + R i.
-// Every second coil, all of one winding sense, has 5 ohm: a charge that lags by a sample would miss R h di/dt of each of
-// them, 0.2 V, and their sum is what a coil between them is told.
+// The voltage of a healthy coil is the flux slope that the others tell, its leakage and its copper:
+// v = F + L_l di/dt + R i. Every second coil, all of one winding sense, has 5 ohm: a charge that
+// lags by a sample would miss R h di/dt of each of them, 0.2 V, and their sum is what a coil
+// between them is told.
 TEST(PhaseWindow, TheOthersTellTheFluxOfAHealthyCoil) {
   Bench bench;
   LinkageModel m = MakeLinkageModel(Reference());

@@ -94,7 +94,8 @@ TEST(CommissioningFile, MistakesAreNamedWithTheirPlace) {
   }
 }
 
-// Those of machines that are round do not have the keys, and neither had the files of earlier versions.
+// Those of machines that are round do not have the keys, and neither had the files of earlier
+// versions.
 TEST(CommissioningFile, WithoutRunOutIsRead) {
   CommissionedBearing b = Learnt();
   b.circuit.run_out = {};

@@ -79,7 +79,8 @@ TEST(CommissioningFit, ExpressesIronThatBendsByBothPowers) {
   EXPECT_EQ(straight.circuit.knee15, 0);
 }
 
-// Iron of one power only: the columns of both powers are much alike, and a step along both leaves the wrong one.
+// Iron of one power only: the columns of both powers are much alike, and a step along both leaves
+// the wrong one.
 TEST(CommissioningFit, ExpressesIronThatBendsByEitherPower) {
   for (const auto& [b, a] : {std::pair{0.4, 0.0}, {0.0, 0.1}, {0.0, 0.4}}) {
     const CommissionedBearing bent = BentCoil(b, a).Fitted();

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kLeakageSd = 2e-5, kGapSd = 0.02;  // [H], [-]
 
-/// One period with current slopes and flux slopes of its own in every coil, residuals of a model whose leakage
-/// and gap err by `leakage` and `gap`, and noise of `noise` [V].
+/// One period with current slopes and flux slopes of its own in every coil, residuals of a model
+/// whose leakage and gap err by `leakage` and `gap`, and noise of `noise` [V].
 PeriodSlopes Slopes(const LinkageModel& m, std::uint64_t period, double leakage, double gap,
                     double noise) {
   PeriodSlopes s;
@@ -92,7 +92,8 @@ TEST(ModelLearning, BelievesNoMoreThanFiveTolerances) {
   EXPECT_DOUBLE_EQ(learning.known().gap, 5 * kGapSd);
 }
 
-// |z| of every coil approaches its usual size with a memory of 200 periods; one of 50 says no more than 4.
+// |z| of every coil approaches its usual size with a memory of 200 periods; one of 50 says no more
+// than 4.
 TEST(ModelLearning, FollowsTheUsualSizeOfEveryResidual) {
   const LinkageModel m = MakeLinkageModel(testing_bench::Reference());
   ModelLearning learning(kLeakageSd, kGapSd);

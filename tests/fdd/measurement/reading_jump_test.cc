@@ -47,8 +47,8 @@ TEST(ReadingJump, AStepOfTheOffsetIsSeenOnceWithItsSizeAndASpikeIsNot) {
   }
 }
 
-// Behind the three intervals that an edge may reach an on phase has one more, or three. Of one nothing is known: there only a
-// step beyond what the bus can do would be a false one.
+// Behind the three intervals that an edge may reach an on phase has one more, or three. Of one
+// nothing is known: there only a step beyond what the bus can do would be a false one.
 TEST(ReadingJump, OfASingleIntervalNothingIsKnown) {
   for (const int intervals : {1, 3}) {
     ReadingBench b;

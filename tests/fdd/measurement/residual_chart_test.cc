@@ -1,5 +1,5 @@
-// The control chart by hand: sums of both phases and of their difference, steps between periods, and the
-// expected size of a residual.
+// The control chart by hand: sums of both phases and of their difference, steps between periods,
+// and the expected size of a residual.
 #include "fdd/measurement/residual_chart.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +106,8 @@ TEST_F(OnTheBench, HealthyResidualsAreSmall) {
     }
 }
 
-// Of noise s [A] per sample: (L s)² scale/h, and the voltage's own uncertainty; the root is good to 5e-6.
+// Of noise s [A] per sample: (L s)² scale/h, and the voltage's own uncertainty; the root is good to
+// 5e-6.
 TEST_F(OnTheBench, TheExpectedSizeIsThatOfNoiseAndVoltage) {
   const ResidualChart c = Computed(all_);
   const LinkageMatrix L = InductanceOf(model_, slopes_.permeance.middle);

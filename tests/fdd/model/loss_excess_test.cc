@@ -1,4 +1,5 @@
-// What a small loss of turns makes of c, against the circuit of a thrust side solved with the turns that are left.
+// What a small loss of turns makes of c, against the circuit of a thrust side solved with the turns
+// that are left.
 #include "fdd/model/loss_excess.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +11,8 @@
 namespace ambrig {
 namespace {
 
-/// Of a side whose first winding has lost the share `eps`: c of both windings by the full circuit, when one voltage
-/// drives both.
+/// Of a side whose first winding has lost the share `eps`: c of both windings by the full circuit,
+/// when one voltage drives both.
 Eigen::Vector2d ExcessOfSide(double mutual, double leakage, double eps) {
   const double left = 1 - eps;
   Eigen::Matrix2d true_L, model_L;
@@ -21,7 +22,8 @@ Eigen::Vector2d ExcessOfSide(double mutual, double leakage, double eps) {
   return model_L * slopes - voltage;
 }
 
-// The windings' currents part at once, as nothing but leakage holds them together: slopes to first order.
+// The windings' currents part at once, as nothing but leakage holds them together: slopes to first
+// order.
 TEST(LossExcess, IsTheDerivativeOfTheCircuitOfAThrustSide) {
   ThrustStatorParameters p;
   p.turns = 80;

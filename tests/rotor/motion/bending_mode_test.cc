@@ -104,8 +104,8 @@ TEST(ModalShaft, ForcesAreStiffnessDampingAndGyroscopics) {
               1e-12);
 }
 
-// Undamped, all forces together do the work that the elastic energy loses: the gyroscopic ones none,
-// also where modes couple with each other and with the tilt.
+// Undamped, all forces together do the work that the elastic energy loses: the gyroscopic ones
+// none, also where modes couple with each other and with the tilt.
 TEST(ModalShaft, GyroscopicForcesDoNoWork) {
   ModalShaft shaft(0.04, 0.004);
   shaft.Add(Plain(400, 0, 0.3, 0.05), kDof);

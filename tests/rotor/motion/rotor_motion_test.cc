@@ -20,8 +20,8 @@ class Brake : public ForceTerm {
   double c_;
 };
 
-// Ip Omega' = -c Omega: Omega = Omega0 exp(-t/tau), theta = Omega0 tau (1 - exp(-t/tau)). A step of h errs by (h/tau)⁵/120 of
-// Omega, with h/tau = 0.1 by 8e-8.
+// Ip Omega' = -c Omega: Omega = Omega0 exp(-t/tau), theta = Omega0 tau (1 - exp(-t/tau)). A step of
+// h errs by (h/tau)⁵/120 of Omega, with h/tau = 0.1 by 8e-8.
 TEST(RotorMotion, AFreeSpinIsBrakedExponentially) {
   const double Ip = 0.0042, tau = 0.01, Omega0 = 500, h = 1e-3;
   RotorModel m({4.2, 0.036, Ip, 0.03}, {0, 0, 0});
@@ -38,8 +38,8 @@ TEST(RotorMotion, AFreeSpinIsBrakedExponentially) {
   }
 }
 
-// A race on its mount, left alone off its seat: x = x0 e^(-d t) (cos w t + d/w sin w t). The step is 4 of the mount's own
-// rate, which one Runge-Kutta step would blow up (its limit is 2.83).
+// A race on its mount, left alone off its seat: x = x0 e^(-d t) (cos w t + d/w sin w t). The step
+// is 4 of the mount's own rate, which one Runge-Kutta step would blow up (its limit is 2.83).
 TEST(RotorMotion, ARaceRingsOnItsMountWithoutContact) {
   const double k = 1e9, M = 0.1, c = 1e3, dt = 4e-5;
   AuxiliaryParameters p = {2e-4, 2e7, 1.0, 0.5, 0.15};

@@ -29,7 +29,8 @@ TEST(SpeedProfile, AccelerationIsTheSlopeOfEachSegmentAndNoneOutside) {
   EXPECT_EQ(p.Acceleration(5), 0);
 }
 
-// 20 rad in the first two seconds, 40 in the next two, 15 in the last: 0 at t = 0, also before the first row.
+// 20 rad in the first two seconds, 40 in the next two, 15 in the last: 0 at t = 0, also before the
+// first row.
 TEST(SpeedProfile, AngleIsTheIntegralOfTheSpeed) {
   const SpeedProfile p = UpAndDown();
   EXPECT_DOUBLE_EQ(p.Angle(0), 0);

@@ -54,7 +54,8 @@ TEST(BeamMatrices, PlanesNextToEachOtherAreOneNode) {
   }
 }
 
-// A shaft that is the same in both planes gives way alike in both, wherever it is pushed and read: at a node as between two.
+// A shaft that is the same in both planes gives way alike in both, wherever it is pushed and read:
+// at a node as between two.
 TEST(BeamMatrices, RowsOfAPlaneReadBothDirectionsAlike) {
   BeamDefinition d = UniformShaft(0.6, 0.03, 3);
   for (const double z : {0.0, 0.6}) d.supports.push_back(IsotropicSupport(z, 1e7, 0));

@@ -1,4 +1,5 @@
-// Residual modes against the whole beam: static deflection under forces at the stations, frequencies on springs there.
+// Residual modes against the whole beam: static deflection under forces at the stations,
+// frequencies on springs there.
 #include "rotor/shaft/residual_modes.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ BeamRotor Shaft() {
   return BuildBeam(d);
 }
 
-/// On springs and dampers at the stations: one more than holds it, so that forces at them bend the shaft.
+/// On springs and dampers at the stations: one more than holds it, so that forces at them bend the
+/// shaft.
 LinearRotor Whole(BeamRotor beam, double k, double c) {
   for (const double z : kStations) beam.supports.push_back(IsotropicSupport(z, k, c));
   return Assemble(beam);
@@ -40,9 +42,9 @@ double FewDeflection(const ReducedRotor& r, double k, double push, double read) 
   return StationRows(StationAt(r, read)).row(0).dot(Few(r, k, 0).K.partialPivLu().solve(f));
 }
 
-// The static shapes of forces at the stations are in the basis, and the springs push nowhere else: what a force
-// at a station does is exact at every other plane, by reciprocity a force anywhere at the stations; 1e-7
-// of the largest is the rounding of stiffnesses eight orders apart.
+// The static shapes of forces at the stations are in the basis, and the springs push nowhere else:
+// what a force at a station does is exact at every other plane, by reciprocity a force anywhere at
+// the stations; 1e-7 of the largest is the rounding of stiffnesses eight orders apart.
 TEST(ResidualModes, StaticDeflectionIsThatOfTheWholeBeam) {
   const BeamRotor beam = Shaft();
   const ReducedRotor plain = Reduce(beam, 1, {0.0}), corrected = Reduce(beam, 1, {0.0}, kStations);
@@ -62,8 +64,9 @@ TEST(ResidualModes, StaticDeflectionIsThatOfTheWholeBeam) {
   EXPECT_GT(std::abs(FewDeflection(plain, 1e8, kMiddle, 0.75) / exact - 1), 0.01);
 }
 
-// The lowest modes on stiff supports, damped ones too, at speed. The kept modes alone miss the compliance of the planes
-// that hold the shaft; a Ritz basis with their static shapes errs by the square of that, a few times.
+// The lowest modes on stiff supports, damped ones too, at speed. The kept modes alone miss the
+// compliance of the planes that hold the shaft; a Ritz basis with their static shapes errs by the
+// square of that, a few times.
 TEST(ResidualModes, FrequenciesOnStiffSupports) {
   const BeamRotor beam = Shaft();
   const double k = 3e7, c = 2e3;

@@ -160,8 +160,8 @@ TEST(RossFile, Mistakes) {
   EXPECT_THROW(WriteRoss(Everything(), "/nonexistent/rotor.toml"), InputError);
 }
 
-// What hangs on a coupling behind the last shaft (a motor in a torsional model), and gears of which ROSS saves the teeth alone,
-// are named with their size.
+// What hangs on a coupling behind the last shaft (a motor in a torsional model), and gears of which
+// ROSS saves the teeth alone, are named with their size.
 TEST(RossFile, NamesWhatNoShaftFollows) {
   const std::string more =
       "[CouplingElement_hub]\nn = 6\nL = 0.3\nm_l = 2.0\nm_r = 3.0\nIp_l = 0.02\nIp_r = 0.03\nkt_x "

@@ -58,7 +58,8 @@ TEST(RossReleases, TheExampleOfEveryReleaseSinceOne) {
                                    "v1.6.1", "v2.0.0", "v2.1.0", "v2.2.0", "v2.3.0"}));
 }
 
-/// Elements by kind, node and, where several stand there, order; 6DoF classes of releases before 1.5 as the others.
+/// Elements by kind, node and, where several stand there, order; 6DoF classes of releases before
+/// 1.5 as the others.
 std::multimap<std::string, RossElement> ByPlace(const std::string& file) {
   std::multimap<std::string, RossElement> out;
   for (const RossElement& e : ReadRossElements(file)) {

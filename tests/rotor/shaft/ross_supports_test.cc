@@ -45,7 +45,8 @@ std::string ChainOf(int at, int node) {
          "\nkxx = [40.0,]\ncxx = [0.0,]\n[PointMass_block" + n + "]\nn = " + h + "\nm = 1.5\n";
 }
 
-// A stiff bar on k on blocks M on K: two masses in series; and the same through a file of ours and of ROSS.
+// A stiff bar on k on blocks M on K: two masses in series; and the same through a file of ours and
+// of ROSS.
 TEST(RossSupports, HousingsAreCarriedBothWays) {
   RossTable table;
   table.Add(ChainOf(0, 3) + ChainOf(2, 4));

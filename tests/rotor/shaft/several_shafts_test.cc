@@ -84,8 +84,9 @@ to = "inner"
 k = 1e3
 )";
 
-// A stiff tube on two springs inside which a stiff shaft stands: it bounces at sqrt(2 k / m) and tilts at
-// sqrt(2 k (L/2)^2 / I). The shafts' own bending, some 1e7 N/m, gives way by 1e-4 of the springs.
+// A stiff tube on two springs inside which a stiff shaft stands: it bounces at sqrt(2 k / m) and
+// tilts at sqrt(2 k (L/2)^2 / I). The shafts' own bending, some 1e7 N/m, gives way by 1e-4 of the
+// springs.
 TEST(SeveralShafts, ATubeOnSpringsAroundAShaft) {
   TwoShaftsFile file(".toml");
   std::ofstream(file.path) << kCoaxial;
@@ -176,7 +177,8 @@ double BucklingTorque(int elements) {
   return least;
 }
 
-// Greenhill: T = 2 pi E I / L, a shape of wave number k = 2 pi / L; cubic elements err by (k h)⁴/720.
+// Greenhill: T = 2 pi E I / L, a shape of wave number k = 2 pi / L; cubic elements err by (k
+// h)⁴/720.
 TEST(ShaftTorque, BucklesAPinnedShaft) {
   const double coarse = std::abs(BucklingTorque(4) / (2 * kPi) - 1),
                fine = std::abs(BucklingTorque(8) / (2 * kPi) - 1);
@@ -184,8 +186,9 @@ TEST(ShaftTorque, BucklesAPinnedShaft) {
   EXPECT_GT(std::log2(coarse / fine), 3.5);
 }
 
-// Two tubes inside one another bend as one without shear, whether they share the inside of an element or not;
-// with shear those that share its ends alone give way more: nothing holds them together between.
+// Two tubes inside one another bend as one without shear, whether they share the inside of an
+// element or not; with shear those that share its ends alone give way more: nothing holds them
+// together between.
 TEST(SeparateLayers, AreElementsOfTheirOwn) {
   BeamDefinition d = UniformShaft(1, 0.1, 4);
   d.sections[0].id = d.sections[0].id_right = 0.05;

@@ -22,7 +22,8 @@ BeamDefinition SupportedBar(int elements) {
   return d;
 }
 
-// A cubic through the rows of a cubic is that cubic (not-a-knot), a line through a line's rows that line.
+// A cubic through the rows of a cubic is that cubic (not-a-knot), a line through a line's rows that
+// line.
 TEST(Support, TablesReproducePolynomials) {
   const std::vector<double> at = {0, 100, 250, 300, 600};
   const auto cubic = [](double x) { return 3e6 + 2e3 * x - 7 * x * x + 0.02 * x * x * x; };
@@ -53,7 +54,8 @@ TEST(Support, TensionOfAPinnedBeam) {
   }
 }
 
-// A stiff bar on two springs that stand on one heavy block each, which stands on a spring: two masses in series.
+// A stiff bar on two springs that stand on one heavy block each, which stands on a spring: two
+// masses in series.
 TEST(Support, ChainOfTwoMasses) {
   BeamDefinition d = SupportedBar(2);
   d.sections[0].material.E = 1e13;

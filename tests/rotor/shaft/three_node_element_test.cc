@@ -1,5 +1,6 @@
-/// The element with a node in its middle: order of convergence against the exact Timoshenko shaft, pinned
-/// in closed form and clamped by the roots of its transfer matrix; rigid motion, statics, what a file may say.
+/// The element with a node in its middle: order of convergence against the exact Timoshenko shaft,
+/// pinned in closed form and clamped by the roots of its transfer matrix; rigid motion, statics,
+/// what a file may say.
 #include "rotor/shaft/three_node_element.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,8 @@ struct Section {
                kSteel.shear_modulus() * Area(kDiameter);
 };
 
-/// Mode k of the shaft pinned at both ends, exact: rI rA/kGA w⁴ - (rA + (rI + rA EI/kGA) a²) w² + EI a⁴ = 0.
+/// Mode k of the shaft pinned at both ends, exact: rI rA/kGA w⁴ - (rA + (rI + rA EI/kGA) a²)
+/// w² + EI a⁴ = 0.
 double ExactPinned(int k) {
   const Section s;
   const double a2 = std::pow(k * kPi / kLength, 2), A = s.rI * s.rA / s.kGA,
@@ -44,9 +46,9 @@ double ExactPinned(int k) {
   return std::sqrt(2 * C / (B + std::sqrt(B * B - 4 * A * C)));
 }
 
-/// Determinant whose roots w are the frequencies of the shaft clamped at 0 and free at L: over y = (w, psi, M, Q)
-/// w' = psi + Q/kGA, psi' = M/EI, M' = -Q - rI w² psi, Q' = -rA w² w, the block of exp(A L) from
-/// (M, Q) at 0 to (M, Q) at L.
+/// Determinant whose roots w are the frequencies of the shaft clamped at 0 and free at L: over
+/// y = (w, psi, M, Q) w' = psi + Q/kGA, psi' = M/EI, M' = -Q - rI w² psi, Q' = -rA w² w, the block
+/// of exp(A L) from (M, Q) at 0 to (M, Q) at L.
 double CantileverDeterminant(double omega) {
   const Section s;
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
@@ -103,11 +105,11 @@ TEST(ThreeNodeElement, FrequenciesWithShearConvergeWithFourthOrder) {
   }
 }
 
-// What the shapes miss inside an element: the shear force Q'' s²/2 of a load that grows with s, Q'' = rho A w² W', and,
-// because Q' = -M'' holds in them, the moment m' s²/2 of m' = rho I w² Psi'. Over what the element can fit, {1, s}, the mean
-// square of s² is h⁴/180, so that their energy (Q''²/kGA + m'²/EI) h⁴/720 against w² (rho A W² + rho I Psi²) is the error of w²,
-// twice that of w. The next term is smaller by
-// the order of (k h)².
+// What the shapes miss inside an element: the shear force Q'' s²/2 of a load that grows with s,
+// Q'' = rho A w² W', and, because Q' = -M'' holds in them, the moment m' s²/2 of m' = rho I w²
+// Psi'. Over what the element can fit, {1, s}, the mean square of s² is h⁴/180, so that their
+// energy (Q''²/kGA + m'²/EI) h⁴/720 against w² (rho A W² + rho I Psi²) is the error of w², twice
+// that of w. The next term is smaller by the order of (k h)².
 TEST(ThreeNodeElement, TheErrorIsTheDerivedFourthOrderTerm) {
   const Section s;
   for (int k : {2, 3}) {
@@ -164,7 +166,8 @@ TEST(ThreeNodeElement, RigidMotionCostsNothingAndWeighsWhatTheShaftDoes) {
   EXPECT_NEAR(tilt.dot(r.J * tilt), t.inertia_polar, 1e-12);
 }
 
-// A round section has twice the inertia about its axis that it has about a diameter: J is twice what rotary inertia adds to M.
+// A round section has twice the inertia about its axis that it has about a diameter: J is twice
+// what rotary inertia adds to M.
 TEST(ThreeNodeElement, GyroscopicIsTwiceRotaryInertia) {
   BeamDefinition d = UniformShaft(0.4, 0.06, 2);
   d.sections[0].od_right = 0.04;
@@ -178,8 +181,8 @@ TEST(ThreeNodeElement, GyroscopicIsTwiceRotaryInertia) {
   EXPECT_EQ(BuildBeam(d).J.norm(), 0);
 }
 
-// Under its own weight the parabola of shear: clamped, w(L) = q L⁴/(8 EI) + q L²/(2 kGA); one element is exact,
-// at its middle node, too.
+// Under its own weight the parabola of shear: clamped, w(L) = q L⁴/(8 EI) + q L²/(2 kGA); one
+// element is exact, at its middle node, too.
 TEST(ThreeNodeElement, OneElementIsExactUnderConstantLoad) {
   const BeamRotor r = ShaftOf(1, ThreeNodes());
   const Section s;
@@ -195,8 +198,9 @@ TEST(ThreeNodeElement, OneElementIsExactUnderConstantLoad) {
   EXPECT_NEAR(u(0), middle, 1e-10 * tip);
 }
 
-// An axial force, a sleeve, layers of their own and a taper go through the same shapes: the fourth order stays, and the element of
-// two nodes, extrapolated with its second order, tends to the same frequency (left over: its fourth order term, (k h)^4/1440).
+// An axial force, a sleeve, layers of their own and a taper go through the same shapes: the fourth
+// order stays, and the element of two nodes, extrapolated with its second order, tends to the same
+// frequency (left over: its fourth order term, (k h)^4/1440).
 TEST(ThreeNodeElement, EverythingElseConvergesToTheSameShaft) {
   const auto lowest = [](int n, bool three, bool separate) {
     BeamDefinition d = UniformShaft(1, 0.06, n);

@@ -1,5 +1,5 @@
-// Modes over the speed that start from their neighbours, against each speed solved alone and against
-// eigenvalues of the whole beam.
+// Modes over the speed that start from their neighbours, against each speed solved alone and
+// against eigenvalues of the whole beam.
 #include "rotor/shaft/whirl_sweep.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,8 @@ TEST(WhirlSweep, FollowsTablesOfSupports) {
   }
 }
 
-// Nothing holds the shaft: its rigid motions have no shape to start from; turning, it precesses at Omega Ip/It.
+// Nothing holds the shaft: its rigid motions have no shape to start from; turning, it precesses at
+// Omega Ip/It.
 TEST(WhirlSweep, FreeShaft) {
   BeamDefinition d = ShaftOnTable(0);
   d.supports.clear();
@@ -95,8 +96,8 @@ TEST(WhirlSweep, FreeShaft) {
   }
 }
 
-// Housings, and a support between shafts, put unknowns far from the diagonal: the solution stays one of the whole
-// equation, whatever solver takes it.
+// Housings, and a support between shafts, put unknowns far from the diagonal: the solution stays
+// one of the whole equation, whatever solver takes it.
 TEST(WhirlSweep, DynamicMatrixWithHousings) {
   BeamDefinition d = ShaftOnTable(4e3);
   for (const char* name : {"left", "right"}) {

@@ -1,5 +1,5 @@
-// Modes of the whole beam by reduction and inverse iteration, against its own eigenvalues computed densely,
-// the equation itself, and the fourth order of the elements.
+// Modes of the whole beam by reduction and inverse iteration, against its own eigenvalues computed
+// densely, the equation itself, and the fourth order of the elements.
 #include "rotor/shaft/whole_beam_modes.h"
 
 #include <gtest/gtest.h>
@@ -117,8 +117,8 @@ TEST(WholeBeamModes, FreeShaftHasNoRigidModes) {
                 1e-7);
 }
 
-// A stiff rotor of mass m on springs k and dampers c beyond critical damping: m s² + c s + k = 0 has two real roots, once for
-// each direction; none of its motions of translation oscillates.
+// A stiff rotor of mass m on springs k and dampers c beyond critical damping: m s² + c s + k = 0
+// has two real roots, once for each direction; none of its motions of translation oscillates.
 TEST(WholeBeamModes, OverdampedMotionsAreRealPoles) {
   BeamDefinition d;
   ShaftSection s;
@@ -143,8 +143,8 @@ TEST(WholeBeamModes, OverdampedMotionsAreRealPoles) {
   EXPECT_TRUE(std::is_sorted(found.real.begin(), found.real.end()));
 }
 
-// Pinned Euler beam: omega_n = (n pi/L)² sqrt(EI/(rho A)); the error falls with the fourth power of the
-// element length.
+// Pinned Euler beam: omega_n = (n pi/L)² sqrt(EI/(rho A)); the error falls with the fourth power of
+// the element length.
 TEST(WholeBeamModes, ConvergeWithTheFourthOrder) {
   BeamDefinition d;
   ShaftSection s;
@@ -163,7 +163,8 @@ TEST(WholeBeamModes, ConvergeWithTheFourthOrder) {
   EXPECT_GT(std::log2(error[1] / error[2]), 3.5);
 }
 
-// Supports of 1e20 N/m, as rotors of teaching examples have them, blur no low mode: those of the shaft held there.
+// Supports of 1e20 N/m, as rotors of teaching examples have them, blur no low mode: those of the
+// shaft held there.
 TEST(WholeBeamModes, RigidSupportsKeepTheLowModes) {
   BeamDefinition d = SteppedShaft(6);
   d.supports = {IsotropicSupport(0, 1e20, 0), IsotropicSupport(1.2, 1e20, 0)};
@@ -190,8 +191,9 @@ TEST(WholeBeamModes, RigidSupportsKeepTheLowModes) {
   }
 }
 
-// All shapes of a mesh of three nodes are asked for: the motion of its rigid supports is none of them. Pinned at both
-// ends, Euler-Bernoulli: (pi/L)² sqrt(EI/(rho A)) to (k h)⁴/1440, k h = pi/2 here.
+// All shapes of a mesh of three nodes are asked for: the motion of its rigid supports is none of
+// them. Pinned at both ends, Euler-Bernoulli: (pi/L)² sqrt(EI/(rho A)) to (k h)⁴/1440, k h = pi/2
+// here.
 TEST(WholeBeamModes, RigidSupportsOfAMeshOfThreeNodes) {
   BeamDefinition d = UniformShaft(1, 0.04, 2);
   d.theory = EulerBernoulli();

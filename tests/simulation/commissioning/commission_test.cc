@@ -122,8 +122,9 @@ TEST_F(CommissionedPlant, WithoutCommissioningNothingIsDoneToAHealthyMachine) {
   EXPECT_LT(open->first.time - kFault, 0.5e-3);
 }
 
-// Leakage past the rotor and fringing into it look alike in all that a healthy machine does but in the
-// currents that move the rotor's potential: without them half of the leakage is taken for fringing.
+// Leakage past the rotor and fringing into it look alike in all that a healthy machine does but in
+// the currents that move the rotor's potential: without them half of the leakage is taken for
+// fringing.
 TEST(Commission, LeakageIsToldFromFringing) {
   const RigParameters rig = ReferenceRig();
   const double leakage = rig.Find("A")->radial.leakage_inductance;

@@ -152,8 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-// Bridges of four quadrants: the diodes of one that is off end a current of either sign, and it stays away until the
-// bridge drives again.
+// Bridges of four quadrants: the diodes of one that is off end a current of either sign, and it
+// stays away until the bridge drives again.
 TEST(ReferenceWitness, ABridgeOfFourQuadrantsThatIsOff) {
   for (const double before : {1.5, -1.5}) {
     Case c = Burst();

@@ -18,7 +18,8 @@ constexpr double kClearance = 2e-4;  // [m] of the reference rig
 
 ContactCrosscheck Library(const std::string& name) {
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/" + name + ".toml";
-  // A code of the ADC that the two read differently grows with what follows; exact edges keep codes apart longer.
+  // A code of the ADC that the two read differently grows with what follows; exact edges keep codes
+  // apart longer.
   const RigParameters rig = WithExactCoils(ReadRig(RigOfScenario(file)));
   CrosscheckOptions options;
   options.other_noise = false;

@@ -1,5 +1,5 @@
-/// Errors of amplifiers and their measurements that the maker knows by their size only: jitter of samples and of
-/// edges, and what differs from coil to coil.
+/// Errors of amplifiers and their measurements that the maker knows by their size only: jitter of
+/// samples and of edges, and what differs from coil to coil.
 #include <gtest/gtest.h>
 
 #include <cmath>

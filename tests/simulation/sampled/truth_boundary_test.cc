@@ -166,8 +166,8 @@ class BeforeAFault : public ::testing::TestWithParam<FaultRun> {
   }
 };
 
-// base_model.md section 6: a fault acts from its ADC sample on. A row shows what is known at the start
-// of its period.
+// base_model.md section 6: a fault acts from its ADC sample on. A row shows what is known at the
+// start of its period.
 TEST_P(BeforeAFault, NoBitOfTheRunChanges) {
   const Record healthy = Run({});
   const auto before = static_cast<std::size_t>(std::floor(GetParam().fault / kBoundaryT)) + 1;

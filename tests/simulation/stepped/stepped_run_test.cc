@@ -128,7 +128,8 @@ parameters = { fraction = 0.3 }
   EXPECT_EQ(worst, 0);
 }
 
-/// A fault from outside at the beginning of a period comes before the scenario's own fault at its end.
+/// A fault from outside at the beginning of a period comes before the scenario's own fault at its
+/// end.
 TEST(SteppedRun, FaultsOfOnePeriodComeInTheOrderOfTime) {
   const RigParameters rig = SteppedRig();
   const std::string last = R"(

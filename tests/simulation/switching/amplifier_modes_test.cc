@@ -55,8 +55,8 @@ TEST(AmplifierModes, VoltageModeIsAnOpenLoop) {
   const RigParameters rig =
       OneCoil("modulation = \"linear\"\nquadrants = 4\nmode = \"voltage\"\nkp = 6.0\n");
   const Record r = StepOf(rig);
-  // The step is taken at a period's start; a mean over the period of its start is off by an eighth of
-  // the period's rise.
+  // The step is taken at a period's start; a mean over the period of its start is off by an eighth
+  // of the period's rise.
   EXPECT_LT(LargestError(r, 6.0 * kAsked / kR, kR / kL), 0.2 * 6.0 * kAsked / kL * 1e-4);
 }
 

@@ -1,6 +1,7 @@
-// Every stator whose k_i and k_s are known (tests/actuators/magnetics/stator_oracles_test.cc), with the same
-// dimensions, in a machine: it levitates, a coil breaks, the currents are redistributed, and the rotor stays up
-// where the coils that are left can hold the weight; where they cannot, it drops.
+// Every stator whose k_i and k_s are known (tests/actuators/magnetics/stator_oracles_test.cc), with
+// the same dimensions, in a machine: it levitates, a coil breaks, the currents are redistributed,
+// and the rotor stays up where the coils that are left can hold the weight; where they cannot, it
+// drops.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +14,8 @@
 namespace ambrig {
 namespace {
 
-/// Two equal bearings. The weight takes a fifth of the linear force k_i i0 of each, kp is twice k_s, kd 0.7 of
-/// critical damping.
+/// Two equal bearings. The weight takes a fifth of the linear force k_i i0 of each, kp is twice
+/// k_s, kd 0.7 of critical damping.
 struct OracleMachine {
   const char* stator;
   double ki, ks;  // [N/A], [N/m]
@@ -124,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
         OracleRun{"HomopolarPole", HomopolarMachine(kHomopolarPole), {"A.coil2"}, "exact"}),
     [](const auto& p) { return std::string(p.param.name); });
 
-// The quadrant that carries the weight, or one beside it, has none that could do its work; a homopolar
-// bearing with one coil an axis has none either.
+// The quadrant that carries the weight, or one beside it, has none that could do its work; a
+// homopolar bearing with one coil an axis has none either.
 TEST(StatorOracleRuns, WhatCannotBeCarriedDrops) {
   const RigParameters pairs = ReadRigText(MachineText(kPairs8), "rig.toml");
   for (const char* lost : {"A.coil1", "A.coil2"}) {
@@ -139,8 +140,9 @@ TEST(StatorOracleRuns, WhatCannotBeCarriedDrops) {
   EXPECT_TRUE(r.touchdown);
 }
 
-// NASA Glenn (GT2001, V004T04A030) held a rotor by two poles of eight: their two pulls and the weight sum to
-// zero. So do poles 2 and 3, at 67.5 and 112.5 degrees, under a weight that points down.
+// NASA Glenn (GT2001, V004T04A030) held a rotor by two poles of eight: their two pulls and the
+// weight sum to zero. So do poles 2 and 3, at 67.5 and 112.5 degrees, under a weight that points
+// down.
 TEST(StatorOracleRuns, TwoPolesOfEightAndTheWeight) {
   const OracleMachine eight{"template = \"one-coil-per-pole\"\npoles = 8", 125.6637, 628318.5, 2};
   const RigParameters rig = ReadRigText(MachineText(eight), "rig.toml");
@@ -150,7 +152,8 @@ TEST(StatorOracleRuns, TwoPolesOfEightAndTheWeight) {
   EXPECT_FALSE(r.drop);
 }
 
-// One magnet on each side of the disk: without the lower one the weight holds against the upper one.
+// One magnet on each side of the disk: without the lower one the weight holds against the upper
+// one.
 TEST(StatorOracleRuns, DoubleActingAxial) {
   std::string text = MachineText(kPairs8);
   text.replace(text.find("[0.0, -9.81, 0.0]"), 17, "[0.0, 0.0, -9.81]");

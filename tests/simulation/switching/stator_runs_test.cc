@@ -1,5 +1,5 @@
-// Rigs with stators of any kind through the whole engine: the eight-pole bearing written as a network
-// moves as the one of the fast path does, and benches of the examples outlive a lost coil.
+// Rigs with stators of any kind through the whole engine: the eight-pole bearing written as a
+// network moves as the one of the fast path does, and benches of the examples outlive a lost coil.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,8 +58,9 @@ double LargestStep(const Record& r) {
   return largest / 4e-4;
 }
 
-// Two codes, one circuit. Within a period one takes the conductances of the poles as linear in time,
-// the other the fluxes per ampere of the whole circuit: they differ by the square of the step.
+// Two codes, one circuit. Within a period one takes the conductances of the poles as linear in
+// time, the other the fluxes per ampere of the whole circuit: they differ by the square of the
+// step.
 TEST(StatorRuns, EightPolesAsANetworkMoveAsTheyDo) {
   const std::string text = ReferenceRigText();
   const RigParameters lanes = ReadRigText(text, "rig.toml"),
@@ -117,7 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Bench{"e_core_and_thrust.toml", "e_core_and_thrust_coil_opens.toml",
                             "Z.coil1"}));
 
-// Coil 1 carries the rotor: without it no currents of the other three give the forces, and the rotor falls.
+// Coil 1 carries the rotor: without it no currents of the other three give the forces, and the
+// rotor falls.
 TEST(StatorRuns, WhatNothingCanCarryIsNotRedistributed) {
   const RigParameters rig = ReadRig(kExamples + "series_pairs.toml");
   Scenario s = ReadScenario(kExamples + "series_pairs_coil_opens.toml", rig);

@@ -50,8 +50,8 @@ TEST(DetectionScore, AlarmsOfHealthyTargetsAndBeforeTheFaultAreFalse) {
   EXPECT_EQ(score.faults[0].detected, 0.0);
 }
 
-// A rotor that dropped, or went past the poles, is no working machine any more: what fails then need not be found, and
-// what is said then blames nobody.
+// A rotor that dropped, or went past the poles, is no working machine any more: what fails then
+// need not be found, and what is said then blames nobody.
 TEST(DetectionScore, WhatComesAfterTheRotorWasLostIsNotJudged) {
   for (const char* lost : {"drop", "model_invalid"}) {
     const DetectionScore score =
@@ -67,7 +67,8 @@ TEST(DetectionScore, WhatComesAfterTheRotorWasLostIsNotJudged) {
   }
 }
 
-// The second fault comes to a rotor that is lost: the first one alone decides, and the text says so.
+// The second fault comes to a rotor that is lost: the first one alone decides, and the text says
+// so.
 TEST(DetectionScore, ExpectationsSkipFaultsThatAreNotJudged) {
   Scenario s;
   s.faults = {Fault(1, "A.coil3"), Fault(3, "B.coil3")};

@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 
 constexpr double kGap = 4e-3, kConstant = 6e-3, kMost = 3;  // [m], [m], [A]
 
-/// Two magnets on a horizontal axis, so that no weight helps; nothing limits the stop but half of the gap.
+/// Two magnets on a horizontal axis, so that no weight helps; nothing limits the stop but half of
+/// the gap.
 RigParameters TwoMagnets(double resistance) {
   return ReadRigText(
       "name = \"pair\"\ngravity = [0.0, 0.0, 0.0]\n[rotor]\nkind = \"point\"\nmass = "
@@ -38,8 +39,8 @@ RigParameters TwoMagnets(double resistance) {
       "rig.toml");
 }
 
-// f = i² L_0/(2 g_c (1 + g/g_c)²) of each magnet: at the far side, half a gap away, the stuck one is held up to
-// i_max (g_c + 3/2 gap)/(g_c + 1/2 gap), centred up to i_max.
+// f = i² L_0/(2 g_c (1 + g/g_c)²) of each magnet: at the far side, half a gap away, the stuck one
+// is held up to i_max (g_c + 3/2 gap)/(g_c + 1/2 gap), centred up to i_max.
 TEST(StuckSwitch, TwoMagnetsByTheirClosedForm) {
   for (const int coil : {0, 1}) {
     const StuckSwitchLimit limit = LimitOfStuckSwitch(TwoMagnets(2), 0, coil);
@@ -72,8 +73,8 @@ RunResult WithStuckSwitch(const std::string& rig_file, const std::string& coil) 
       {});
 }
 
-// Benches of which the switch is told within a millisecond and the rotor is lost: no currents of the others could have
-// kept it, and the run says so.
+// Benches of which the switch is told within a millisecond and the rotor is lost: no currents of
+// the others could have kept it, and the run says so.
 TEST(StuckSwitch, LostRotorsSayThatNothingCouldHoldThem) {
   for (const auto& [rig, coil] :
        {std::pair{"series_pairs.toml", "A.coil4"}, std::pair{"six_poles.toml", "A.coil2"},
@@ -89,7 +90,8 @@ TEST(StuckSwitch, LostRotorsSayThatNothingCouldHoldThem) {
   }
 }
 
-// A pair of a homopolar bearing pulls with both of its poles, at the far side the other way: only the centre is judged.
+// A pair of a homopolar bearing pulls with both of its poles, at the far side the other way: only
+// the centre is judged.
 TEST(StuckSwitch, OfAPairOfOppositePolesOnlyTheCentreIsJudged) {
   const RunResult r = WithStuckSwitch("homopolar.toml", "A.coil2");
   EXPECT_TRUE(r.touchdown);

@@ -1,5 +1,5 @@
-// Controllers written as C99 and compiled: the same bits as the simulated one, for every kind, through
-// readings of all sizes, references, excitations, speeds and clamped forces.
+// Controllers written as C99 and compiled: the same bits as the simulated one, for every kind,
+// through readings of all sizes, references, excitations, speeds and clamped forces.
 #include "control/position/c_code/c_code.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,8 @@
 namespace ambrig::testing {
 namespace {
 
-/// The controller of this rig as C, compiled as its first comment says, with every warning an error.
+/// The controller of this rig as C, compiled as its first comment says, with every warning an
+/// error.
 ExternalSettings Compiled(const PositionController& controller,
                           const std::vector<std::string>& axes, const TemporaryFolder& folder) {
   const std::string source = folder.File("c.c");

@@ -1,5 +1,5 @@
-// Every file of an instrument, cut at every byte and with lengths that ask for more than there is: a
-// record or one line of error, within bounded memory.
+// Every file of an instrument, cut at every byte and with lengths that ask for more than there is:
+// a record or one line of error, within bounded memory.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>

@@ -1,5 +1,6 @@
 #pragma once
-/// The files of tests/core/data/instruments; make_instruments.py there says what is in those it wrote.
+/// The files of tests/core/data/instruments; make_instruments.py there says what is in those it
+/// wrote.
 #include <cmath>
 #include <string>
 #include <vector>
