@@ -93,7 +93,8 @@ class InputTrial {
     without_ = CountedErrors(silent_);
     before_ = (without_ + AnswerTo(0)).norm();
   }
-  /// As Late, of whole rows, by the answer as it is at 0: nothing in the controller depends on time.
+  /// As Late, of whole rows, by the answer as it is at 0: nothing in the controller depends on
+  /// time.
   InputFit Shifted(long rows) const {
     double cross = 0, square = 0, before = 0;
     for (std::size_t a = 0; a < silent_.size(); ++a) {

@@ -41,8 +41,8 @@ class AdoptedEffects {
   void NoteBesideShape(const EffectInstance& e);
   bool IsBesideShape(const EffectInstance& e) const;
 
-  /// Whether one of them is a law of the same magnetisation curve as `e` would be: a second one adds a
-  /// detail of its shape.
+  /// Whether one of them is a law of the same magnetisation curve as `e` would be: a second one
+  /// adds a detail of its shape.
   bool HoldMagnetisationOf(const EffectInstance& e) const;
 
   /// What the law of the first effect leaves in a free shape (discovery/shape/shape_names.h), where

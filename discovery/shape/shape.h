@@ -40,7 +40,8 @@ std::string RefinableEffects();
 bool IsRefinable(const std::string& effect);
 /// Whether the effect is a law of the iron.
 bool IsIronLaw(const std::string& effect);
-/// Whether both are laws of the magnetisation curve: the free shape of one holds what the other adds.
+/// Whether both are laws of the magnetisation curve: the free shape of one holds what the other
+/// adds.
 bool ShareMagnetisation(const std::string& a, const std::string& b);
 /// Whether the effect is a force or a drag that depends on the motion or on the angle of the shaft.
 bool IsMotionLaw(const std::string& effect);

@@ -135,8 +135,8 @@ TEST(GateClocks, AShortBlockThatIsMissing) {
   EXPECT_NEAR(faults[0].seconds, rows / before.rate, 2 / before.rate);
 }
 
-/// A record whose positions and currents hold another movement, of this share of their own. Set-points would follow it
-/// and are not logged.
+/// A record whose positions and currents hold another movement, of this share of their own.
+/// Set-points would follow it and are not logged.
 Case BesideAnotherMovement(double share) {
   Case c = Measured({}, 0, kMultisine);
   CaseRecord& r = c.records[RecordNamed(c, kMultisine)];

@@ -68,7 +68,8 @@ TEST(AdoptedEffects, TheShapeOfOneLawMayExplainAll) {
   EXPECT_FALSE(adopted.ShapeExplainsAll());
 }
 
-// Saturation and reluctance of one iron are parts of one magnetisation curve; eddy currents are not.
+// Saturation and reluctance of one iron are parts of one magnetisation curve; eddy currents are
+// not.
 TEST(AdoptedEffects, HoldTheMagnetisationOfTheirBearing) {
   const auto at = [](const char* effect, const char* target) {
     return MakeInstance(EffectNamed(effect), target);
