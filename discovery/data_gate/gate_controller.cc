@@ -12,6 +12,7 @@
 #include "discovery/data_gate/gate_shifts.h"
 #include "discovery/model/controller_block.h"
 #include "discovery/model/record_traits.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
