@@ -7,6 +7,7 @@
 
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
+#include "effects/catalogue.h"
 #include "tests/discovery/data_gate/gate_case.h"
 
 namespace ambrig {
