@@ -109,6 +109,17 @@ ExplainScene::ExplainScene(const Case& c, const Explanation& e) : explanation(e)
   usable = true;
 }
 
+namespace {
+
+/// The channels with the largest errors below `head`, or `none`.
+void AddWorstPlaces(HtmlReport& report, const CaseModel& model, const std::vector<double>& residual,
+                    const std::string& none, const std::string& head) {
+  const auto worst = WorstPlaces(model, residual);
+  report.Text(worst.empty() ? none : head + "\n\n" + List(worst));
+}
+
+}  // namespace
+
 void AddPlainFailure(HtmlReport& report, const ExplainScene& s) {
   report.Heading("Errors of the model of the rig file");
   if (!s.usable) {
@@ -116,11 +127,8 @@ void AddPlainFailure(HtmlReport& report, const ExplainScene& s) {
         "The model of the rig file loses levitation in these records; no error can be shown.");
     return;
   }
-  const auto worst = WorstPlaces(s.model, s.plain_residual);
-  if (worst.empty())
-    report.Text("Nowhere by more than 15 % of the noise.");
-  else
-    report.Text("The rig file as it is, beside the measurements; worst first:\n\n" + List(worst));
+  AddWorstPlaces(report, s.model, s.plain_residual, "Nowhere by more than 15 % of the noise.",
+                 "The rig file as it is, beside the measurements; worst first:");
   AddRatioMap(report, s.model, s.plain_residual,
               "Error over noise of the plain model, every channel (columns: position readings x, "
               "y; coil currents i; set-points s; bus) in every record (rows).");
@@ -159,11 +167,9 @@ void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
 void AddWhatIsLeft(HtmlReport& report, const ExplainScene& s) {
   if (!s.usable) return;
   report.Heading("Residual");
-  const auto worst = WorstPlaces(s.model, s.final_residual);
-  if (worst.empty())
-    report.Text("Nothing: no channel of any record errs by more than 15 % over its noise.");
-  else
-    report.Text("Largest remaining errors after all fits:\n\n" + List(worst));
+  AddWorstPlaces(report, s.model, s.final_residual,
+                 "Nothing: no channel of any record errs by more than 15 % over its noise.",
+                 "Largest remaining errors after all fits:");
   AddRatioMap(report, s.model, s.final_residual,
               "Error over noise after everything that was fitted; compare with the same map of the "
               "plain model above, in the same colours.",

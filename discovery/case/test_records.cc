@@ -10,15 +10,8 @@ namespace {
 /// the test.
 std::optional<Case> Part(const Case& c, bool of_test) {
   if (std::ranges::none_of(c.records, &CaseRecord::test)) return std::nullopt;
-  Case part;
-  part.file = c.file;
-  part.rig_file = c.rig_file;
-  part.rig = c.rig;
-  part.noise = c.noise;
-  part.nuisances = c.nuisances;
-  part.notes = c.notes;
-  std::ranges::copy_if(c.records, std::back_inserter(part.records),
-                       [of_test](const CaseRecord& r) { return r.test == of_test; });
+  Case part = c;
+  std::erase_if(part.records, [of_test](const CaseRecord& r) { return r.test != of_test; });
   return part;
 }
 

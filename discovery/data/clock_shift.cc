@@ -1,5 +1,7 @@
 #include "discovery/data/clock_shift.h"
 
+#include <cmath>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -22,6 +24,8 @@ void MoveBack(std::vector<T>& values, int late, T edge) {
 }
 
 }  // namespace
+
+long MostRowsOff(double rate) { return std::max(kMostRowsOff, std::lround(kMostClockOff * rate)); }
 
 Case WithClocks(const Case& c, const std::vector<int>& rows_late) {
   Case out = c;

@@ -6,6 +6,13 @@
 
 namespace ambrig {
 
+/// By which the clock of a record or of its input may be off [rows], [s] and be set right,
+/// whichever is more. A larger shift is an error of the data.
+inline constexpr long kMostRowsOff = 4;
+inline constexpr double kMostClockOff = 5e-4;
+/// The same in rows at this rate [Hz].
+long MostRowsOff(double rate);
+
 /// The case with every record's rows moved back by `rows_late` (one number for each record;
 /// negative: it is early). Rows for which no measured one is left do not count.
 Case WithClocks(const Case& c, const std::vector<int>& rows_late);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "discovery/data/clock_shift.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
@@ -22,8 +23,6 @@ constexpr double kCurrentFloor = 1e-4;     // [A], of a control current
 constexpr double kOfMovement = 0.03;       // of the command's movement: rounding of the record
 constexpr double kUndone = 0.1;            // of the error that the right hypothesis may leave
 constexpr double kOfInputNuisances = 0.3;  // of it that a clock and an input's size may leave
-constexpr long kMostInputRows = 4;         // by which the fits shift the clock of an input
-constexpr double kLeastClock = 5e-4;       // [s]: more is found in all columns of the record
 constexpr double kMostInputGain = 1.6;     // that the fits give an input, or its inverse
 constexpr double kLongestLag = 0.05;       // [s]
 
@@ -92,7 +91,7 @@ class InputTrial {
     silent_ = ControllerAxes(rig, silent, data);
     now_ = ControllerAxes(rig, scenario, data);
     without_ = CountedErrors(silent_);
-    before_ = (without_ + AnswerTo(0)).norm();
+    before_ = CountedErrors(now_).norm();
   }
   /// As Late, of whole rows, by the answer as it is at 0: nothing in the controller depends on
   /// time.
@@ -135,7 +134,7 @@ class InputTrial {
 /// Whole rows, then parts of a row: steps on rows and between them move at other instants.
 InputFit FitInput(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data) {
   const InputTrial trial(rig, scenario, data);
-  const long most = std::max(kMostInputRows, std::lround(kLeastClock * data.record.rate));
+  const long most = MostRowsOff(data.record.rate);
   InputFit best;
   const auto try_late = [&](double rows) {
     const InputFit fit = trial.Late(rows);
@@ -213,7 +212,7 @@ void TellInput(const CaseRecord& r, const InputFit& fit, std::vector<DataFault>&
     DataFault f = FaultLeaving(r, "", "scenario", fit.left);
     f.detail = fmt::format("its commands were {:.4g} times what the scenario says", fit.gain);
     TellScenario(f, out);
-  } else if (std::abs(fit.late) > static_cast<double>(kMostInputRows)) {
+  } else if (std::abs(fit.late) > static_cast<double>(kMostRowsOff)) {
     out.push_back(TimeFault(r, "", {fit.late / r.data.rate, 0, fit.left, true}));
   }
 }

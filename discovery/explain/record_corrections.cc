@@ -12,15 +12,6 @@
 
 namespace ambrig {
 
-namespace {
-
-// By which a clock may be off [rows], [s], whichever is more; a larger shift is a matter of the
-// data gate.
-constexpr long kMostRows = 4;
-constexpr double kMostLate = 5e-4;
-
-}  // namespace
-
 void RecordCorrections::Add(const RecordCorrections& found) {
   if (!found.rows_late.empty()) rows_late = found.rows_late;
   inputs_larger.resize(std::max(inputs_larger.size(), found.inputs_larger.size()), 0);
@@ -63,8 +54,7 @@ std::optional<std::vector<int>> LateRows(const Case& c, const std::vector<Nuisan
       const CaseRecord& record = c.records[r];
       if (record.data_file != f.record) continue;
       const long late = std::lround(f.value * record.data.rate);
-      const long most = std::max(kMostRows, std::lround(kMostLate * record.data.rate));
-      rows[r] = std::abs(late) <= most ? static_cast<int>(late) : 0;
+      rows[r] = std::abs(late) <= MostRowsOff(record.data.rate) ? static_cast<int>(late) : 0;
       some = some || rows[r] != 0;
       all = all && rows[r] == rows[0];
     }

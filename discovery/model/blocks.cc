@@ -38,17 +38,6 @@ bool Drives(const std::string& channel) {
                 id->kind == ChannelKind::kCoilCurrent);
 }
 
-/// Channels of a bearing in their order; empty unless the record has them all.
-std::vector<const Channel*> AllOf(const Record& record, const BearingParameters& b,
-                                  ChannelKind kind) {
-  std::vector<const Channel*> out;
-  for (const ChannelId& id : ChannelsOf(b, kind)) {
-    out.push_back(Find(record, id));
-    if (!out.back()) return {};
-  }
-  return out;
-}
-
 void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
                      const BridgedRecord& data, BlockErrors& out) {
   Mean error;
@@ -110,8 +99,8 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
     const std::array<double, 2> at =
         it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
     if (!b.kind->eight_poles) continue;
-    const auto cell = AllOf(d, b, ChannelKind::kLoadCell),
-               current = AllOf(d, b, ChannelKind::kCoilCurrent);
+    const auto cell = ChannelsIn(d, b, ChannelKind::kLoadCell),
+               current = ChannelsIn(d, b, ChannelKind::kCoilCurrent);
     if (!cell.empty() && !current.empty()) {
       const RadialStator stator(b.radial);
       for (std::size_t k = 0; k < d.rows(); ++k) {

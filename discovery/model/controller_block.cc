@@ -5,26 +5,15 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "control/position/pid.h"
 #include "core/record/channels.h"
+#include "discovery/model/record_traits.h"
 #include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
-#include "rig/rig_channels.h"
 
 namespace ambrig {
 
 namespace {
 
 constexpr std::size_t kDerivativeSettles = 30;  // [rows]
-
-/// Channels of a bearing in their order; empty unless the record has them all.
-std::vector<const Channel*> EveryOf(const Record& record, const BearingParameters& b,
-                                    ChannelKind kind) {
-  std::vector<const Channel*> out;
-  for (const ChannelId& id : ChannelsOf(b, kind)) {
-    out.push_back(Find(record, id));
-    if (!out.back()) return {};
-  }
-  return out;
-}
 
 struct Commands {
   double reference = 0;  // [m]
@@ -147,8 +136,8 @@ std::vector<ControllerAxis> ControllerAxes(const RigParameters& nominal, const S
   if (!HasControllerBlock(nominal, scenario, data.record)) return out;
   for (const BearingParameters& b : nominal.bearings) {
     if (!b.kind->eight_poles) continue;
-    const auto y = EveryOf(data.record, b, ChannelKind::kReading),
-               s = EveryOf(data.record, b, ChannelKind::kSetPoint);
+    const auto y = ChannelsIn(data.record, b, ChannelKind::kReading),
+               s = ChannelsIn(data.record, b, ChannelKind::kSetPoint);
     if (y.empty() || s.empty()) continue;
     const RadialStator stator(b.radial);
     for (std::size_t side = 0; side < 2; ++side) {

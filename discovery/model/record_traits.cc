@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/math/noise.h"
-#include "core/record/channels.h"
 #include "core/record/missing_samples.h"
+#include "rig/rig_channels.h"
 
 namespace ambrig {
 
@@ -102,6 +102,16 @@ Record WithReadingNoise(Record driving, const RigParameters& rig, std::uint64_t 
         c.samples[k] += noise * Normal(seed, stream, k);
     }
   return driving;
+}
+
+std::vector<const Channel*> ChannelsIn(const Record& record, const BearingParameters& b,
+                                       ChannelKind kind) {
+  std::vector<const Channel*> out;
+  for (const ChannelId& id : ChannelsOf(b, kind)) {
+    out.push_back(Find(record, id));
+    if (!out.back()) return {};
+  }
+  return out;
 }
 
 }  // namespace ambrig

@@ -3,7 +3,9 @@
 /// whether its rotor touches something.
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "core/record/channels.h"
 #include "discovery/case/case.h"
 
 namespace ambrig {
@@ -29,6 +31,10 @@ Record DrivingRecord(const RigParameters& rig, const CaseRecord& record);
 
 /// The same positions and currents measured once more: with the noise of `rig` and a seed.
 Record WithReadingNoise(Record driving, const RigParameters& rig, std::uint64_t seed);
+
+/// Channels of a bearing in their order; empty unless the record has them all.
+std::vector<const Channel*> ChannelsIn(const Record& record, const BearingParameters& b,
+                                       ChannelKind kind);
 
 /// Whether the readings of a levitated record reach the auxiliary bearings.
 bool Touches(const RigParameters& rig, const CaseRecord& record);

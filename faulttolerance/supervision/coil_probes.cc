@@ -16,6 +16,11 @@ constexpr double kIdleFirst = 10e-3, kIdleAgain = 50e-3, kBetween = 8e-3;  // [s
 constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of the orbit; [m]
 constexpr double kLeastOfRoom = 0.025;  // growth after a derating, of the rotor's room
 
+/// Whether the orbit grew from `before` by half and by `least` more [m].
+bool OrbitGrew(double before, double after, double least) {
+  return after > kGrowth * before + least;
+}
+
 }  // namespace
 
 void CoilProbes::Orbit(double t, double x, double y) {
@@ -43,7 +48,7 @@ double CoilProbes::Motion() const {
 }
 
 bool CoilProbes::Grown(const Look& look) const {
-  return look.orbit_after > kGrowth * look.orbit_before + kLeastGrowth;
+  return OrbitGrew(look.orbit_before, look.orbit_after, kLeastGrowth);
 }
 
 void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
@@ -65,7 +70,7 @@ void CoilProbes::Derated(int coil, double t, double room) {
 int CoilProbes::MadeWorse(double t) {
   for (auto it = deratings_.begin(); it != deratings_.end();) {
     const auto [coil, d] = *it;
-    const bool grown = d.after > kGrowth * d.before + d.least_growth;
+    const bool grown = OrbitGrew(d.before, d.after, d.least_growth);
     if (!grown && t < d.at + kFirst) {
       ++it;
       continue;
