@@ -105,6 +105,7 @@ std::string Quantity(const DataFault& f) {
   if (f.fault == "lag")
     return fmt::format("comes {:.4g} ms {}", 1e3 * std::abs(f.seconds),
                        f.seconds > 0 ? "late" : "early");
+  if (f.fault == "controller") return "had another controller than the file states";
   if (f.fault == "clip") return fmt::format("is clipped for {:.4g} ms", 1e3 * f.seconds);
   if (f.with == kEmpty) return "is empty in the whole record";
   if (f.with == kWholeColumn)
@@ -136,6 +137,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
   std::vector<DataFault> out;
   for (std::vector<DataFault>& faults : of_record)
     std::ranges::move(faults, std::back_inserter(out));
+  if (out.empty()) CheckProgram(model, out);
   return out;
 }
 

@@ -67,4 +67,8 @@ void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFaul
 void CheckController(const CaseModel& model, std::size_t record,
                      const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 
+/// Gains of the rig file's controllers against those with which the set-points of all records were
+/// computed.
+void CheckProgram(const CaseModel& model, std::vector<DataFault>& out);
+
 }  // namespace ambrig

@@ -11,6 +11,7 @@
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
 #include "discovery/data_gate/gate_shifts.h"
+#include "discovery/data_gate/program_error.h"
 #include "discovery/model/controller_block.h"
 #include "discovery/model/record_traits.h"
 #include "rig/rig_figures.h"
@@ -19,51 +20,10 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kCurrentFloor = 1e-4;     // [A], of a control current
-constexpr double kOfMovement = 0.03;       // of the command's movement: rounding of the record
 constexpr double kUndone = 0.1;            // of the error that the right hypothesis may leave
 constexpr double kOfInputNuisances = 0.3;  // of it that a clock and an input's size may leave
 constexpr double kMostInputGain = 1.6;     // that the fits give an input, or its inverse
 constexpr double kLongestLag = 0.05;       // [s]
-
-bool DrivesController(const std::string& channel) {
-  return IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint);
-}
-
-BridgedRecord ControllerRecord(const Record& data) {
-  return BridgeMissing(data, kLoopsSettle, DrivesController);
-}
-
-/// rms of the error [A] without its largest values: single wrong samples, edges of steps.
-double LastingError(const ControllerAxis& a) {
-  constexpr double kLargest = 0.02;  // of the rows
-  std::vector<double> squares;
-  for (std::size_t k = 0; k < a.error.size(); ++k)
-    if (a.counts[k]) squares.push_back(a.error[k] * a.error[k]);
-  std::ranges::sort(squares);
-  squares.resize(squares.size() -
-                 static_cast<std::size_t>(kLargest * static_cast<double>(squares.size())));
-  double sum = 0;
-  for (const double square : squares) sum += square;
-  return squares.empty() ? 0 : std::sqrt(sum / static_cast<double>(squares.size()));
-}
-
-bool IsWrong(const ControllerAxis& a) {
-  const double error = LastingError(a);
-  return error > kGrossError * kCurrentFloor && error > kOfMovement * a.movement;
-}
-
-/// Whether the program of the rig file is the one that computed the set-points: an axis of the case
-/// that moves agrees.
-bool ProgramIsRight(const CaseModel& model) {
-  return std::ranges::any_of(model.data().records, [&](const CaseRecord& r) {
-    if (!OverTime(r) || !HasControllerBlock(model.data().rig, r.scenario, r.data)) return false;
-    const auto axes = ControllerAxes(model.data().rig, r.scenario, ControllerRecord(r.data));
-    return std::ranges::any_of(axes, [](const ControllerAxis& a) {
-      return a.movement > 2 * kGrossError * kCurrentFloor && !IsWrong(a);
-    });
-  });
-}
 
 /// The errors of all axes, rows that count only [A].
 Eigen::VectorXd CountedErrors(const std::vector<ControllerAxis>& axes) {
@@ -155,27 +115,64 @@ InputFit FitInput(const RigParameters& rig, const Scenario& scenario, const Brid
   return best;
 }
 
+/// The axis alone, with `y` for its reading.
+ControllerAxis AxisWith(const RigParameters& rig, const Scenario& scenario, BridgedRecord& data,
+                        const std::string& axis, const std::vector<double>& y) {
+  for (Channel& c : data.record.channels)
+    if (c.name == axis) c.samples = y;
+  for (ControllerAxis& a : ControllerAxes(rig, scenario, data))
+    if (a.axis == axis) return std::move(a);
+  return {};
+}
+
+/// The record with the channels of the bearing of an axis alone.
+BridgedRecord BearingOf(const BridgedRecord& data, const std::string& axis) {
+  BridgedRecord out = data;
+  const auto own = ParseChannel(axis);
+  std::erase_if(out.record.channels, [&](const Channel& c) {
+    const auto id = ParseChannel(c.name);
+    return !id || !own || id->plane != own->plane;
+  });
+  return out;
+}
+
+/// What the reading of an axis is of what it should be; 1: no factor brings its set-points back.
+/// The error is linear in it.
+double FactorOfReading(const RigParameters& rig, const Scenario& scenario,
+                       const BridgedRecord& data, const ControllerAxis& axis) {
+  BridgedRecord bearing = BearingOf(data, axis.axis);
+  const std::vector<double> none(data.record.rows(), 0.0);
+  const ControllerAxis without = AxisWith(rig, scenario, bearing, axis.axis, none);
+  double cross = 0, square = 0, before = 0, total = 0;
+  for (std::size_t k = 0; k < axis.error.size(); ++k) {
+    if (!axis.counts[k]) continue;
+    const double answer = axis.error[k] - without.error[k];
+    cross += answer * without.error[k];
+    square += answer * answer;
+    before += without.error[k] * without.error[k];
+    total += axis.error[k] * axis.error[k];
+  }
+  if (square <= 0 || cross == 0) return 1;
+  const double left = std::max(0.0, before - cross * cross / square);
+  return left < kUndone * kUndone * total ? -square / cross : 1;
+}
+
 /// Rows by which the reading of an axis is late; 0: no lag brings its set-points back.
 long LagOfReading(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data,
                   const ControllerAxis& axis) {
   const std::vector<double>& y = data.record.Find(axis.axis)->samples;
   const auto rows = static_cast<long>(y.size());
   const long most = std::min(rows / 4, std::lround(kLongestLag * data.record.rate));
-  BridgedRecord moved = data;
-  std::erase_if(moved.record.channels, [&](const Channel& c) {  // the axis of its bearing alone
-    const auto id = ParseChannel(c.name), own = ParseChannel(axis.axis);
-    return !id || !own || id->plane != own->plane;
-  });
+  BridgedRecord bearing = BearingOf(data, axis.axis);
+  std::vector<double> moved(y.size());
   long best = 0;
   double least = kUndone * axis.rms;
   for (long late = -most; late <= most; ++late) {
-    for (Channel& c : moved.record.channels)
-      if (c.name == axis.axis)
-        for (long k = 0; k < rows; ++k)
-          c.samples[static_cast<std::size_t>(k)] =
-              y[static_cast<std::size_t>(std::clamp(k + late, 0L, rows - 1))];
-    for (const ControllerAxis& a : ControllerAxes(rig, scenario, moved))
-      if (a.axis == axis.axis && a.rms < least) least = a.rms, best = late;
+    for (long k = 0; k < rows; ++k)
+      moved[static_cast<std::size_t>(k)] =
+          y[static_cast<std::size_t>(std::clamp(k + late, 0L, rows - 1))];
+    const double left = AxisWith(rig, scenario, bearing, axis.axis, moved).rms;
+    if (left < least) least = left, best = late;
   }
   return best;
 }
@@ -245,7 +242,9 @@ void CheckController(const CaseModel& model, std::size_t record,
     return;
   }
   for (const ControllerAxis* a : wrong)
-    if (const long late = LagOfReading(rig, r.scenario, data, *a); late != 0)
+    if (const double factor = FactorOfReading(rig, r.scenario, data, *a); factor != 1)
+      out.push_back(FactorFault(r, a->axis, factor, kUndone));
+    else if (const long late = LagOfReading(rig, r.scenario, data, *a); late != 0)
       out.push_back(
           TimeFault(r, a->axis, {static_cast<double>(late) / data.record.rate, 0, kUndone, true}));
 }

@@ -20,6 +20,18 @@ constexpr std::size_t kPlaces = 8;
 // Name probability: half at a share of 0.45; an explanation down to the floor is a name.
 constexpr double kHalfShare = 0.45, kSlope = 12, kAtFloor = 1.15;
 
+/// The effect with the sd that its sizes have while the shape of its law is held.
+EffectInstance WithSdOfSizes(const FitResult& fit, std::size_t effect, bool under_doubt) {
+  EffectInstance e = FittedEffect(fit, effect);
+  for (std::size_t k = 0; k < fit.hypothesis.free.size() && k < fit.size_sd.size(); ++k) {
+    const FreeParameter& p = fit.hypothesis.free[k];
+    if (p.effect != static_cast<int>(effect)) continue;
+    e.sd[p.row] = fit.size_sd[k];
+    if (under_doubt && k < fit.doubt.size()) e.sd[p.row] *= fit.doubt[k];
+  }
+  return e;
+}
+
 }  // namespace
 
 Closure ClosureOf(const CaseModel& model, const std::vector<double>& before,
@@ -116,12 +128,11 @@ bool HasSize(const EffectInstance& effect) {
 }
 
 bool HasSize(const FitResult& fit, std::size_t effect) {
-  EffectInstance e = FittedEffect(fit, effect);
-  for (std::size_t k = 0; k < fit.hypothesis.free.size() && k < fit.size_sd.size(); ++k) {
-    const FreeParameter& p = fit.hypothesis.free[k];
-    if (p.effect == static_cast<int>(effect)) e.sd[p.row] = fit.size_sd[k];
-  }
-  return HasSize(e);
+  return HasSize(WithSdOfSizes(fit, effect, false));
+}
+
+bool HasSizeUnderDoubt(const FitResult& fit, std::size_t effect) {
+  return HasSize(WithSdOfSizes(fit, effect, true));
 }
 
 bool HasImpossibleSign(const EffectInstance& effect) {

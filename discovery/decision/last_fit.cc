@@ -23,7 +23,11 @@ FitResult LastFit(const CaseModel& model, const FitResult& found, double effecti
     fitted = Fit(model, back.fit.hypothesis, fine);
     last = fitted.converged ? std::move(fitted) : std::move(back.fit);
   }
+  const std::vector<double> of_noise = last.sd;
   last.sd = SdUnderDoubt(model, last, effective_sample_size);
+  last.doubt.assign(of_noise.size(), 1);
+  for (std::size_t k = 0; k < of_noise.size(); ++k)
+    if (of_noise[k] > 0) last.doubt[k] = last.sd[k] / of_noise[k];
   return last;
 }
 

@@ -6,16 +6,6 @@
 
 namespace ambrig {
 
-struct LocalShare {
-  double before = 0;        // ratio of the fitted channels where the error falls most
-  double explained = 0;     // share of their error above the noise
-  double unseen = 0;        // the same share of these channels in unseen records
-  bool seen_there = false;  // whether these show an error to explain
-};
-
-LocalShare ShareWhereItActs(const CaseModel& model, const FitResult& before,
-                            const FitResult& after);
-
 /// Whether `after`, one more effect, explains nearly all that is left where it acts, by more than
 /// chance: `score_gain` as WorthAdopting. Of the `first` effect more is asked, as the rig's
 /// parameters have not made room for what else is missing.

@@ -6,8 +6,16 @@
 namespace ambrig {
 
 void EffectRemoval::DropSizeless(const FitResult& base, FitResult& now) {
+  // What the law of the first effect leaves may pass for a small effect beside it, but for none
+  // that explains its own channels.
+  const auto has_size = [&](std::size_t k) {
+    const bool plain =
+        k == 0 || adopted_.IsOfOwnChannels(adopted_[k]) || adopted_.IsBesideShape(adopted_[k]);
+    const std::size_t place = adopted_.PlaceOf(k);
+    return HasSize(now, place) && (plain || HasSizeUnderDoubt(now, place));
+  };
   std::size_t sizeless = 0;
-  while (sizeless < adopted_.size() && HasSize(now, adopted_.PlaceOf(sizeless))) ++sizeless;
+  while (sizeless < adopted_.size() && has_size(sizeless)) ++sizeless;
   if (sizeless == adopted_.size()) return;
   log_.warnings.push_back(Named(adopted_[sizeless]) +
                           " lies within 3 sd of nothing: it is not named");

@@ -7,12 +7,14 @@
 #include "discovery/explain/explanation_search.h"
 #include "discovery/explain/record_corrections.h"
 #include "discovery/explain/test_figures.h"
+#include "discovery/explain/unseen_error.h"
 
 namespace ambrig {
 
-Explanation Explain(const Case& whole, const ExplainOptions& options) {
-  const std::optional<Case> seen = WithoutTestRecords(whole);
-  const Case& c = seen ? *seen : whole;
+namespace {
+
+/// The search, from the start again where records have to be corrected first.
+Explanation SearchCorrected(const Case& c, const ExplainOptions& options) {
   ExplainOptions now = options;
   RecordCorrections all;
   Explanation e;
@@ -28,6 +30,19 @@ Explanation Explain(const Case& whole, const ExplainOptions& options) {
     all.Add(found);
   }
   ReportCorrections(c, all, e);
+  return e;
+}
+
+}  // namespace
+
+Explanation Explain(const Case& whole, const ExplainOptions& options) {
+  const std::optional<Case> seen = WithoutTestRecords(whole);
+  const Case& c = seen ? *seen : whole;
+  Explanation e = SearchCorrected(c, options);
+  if (const auto record = OnlyUnseen(c, e)) {
+    const Case more = WithFitted(c, *record);
+    e = TheBetter(c, *record, std::move(e), SearchCorrected(more, options));
+  }
   AddTestFigures(whole, options, e);
   const CalibrationTable& table = StoredCalibration();
   if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);

@@ -152,9 +152,22 @@ FitResult SearchModels::AtAllRows(const FitResult& fit) const {
 }
 
 FitResult SearchModels::FittedToTheEnd(const FitResult& before, const FitResult& found) const {
-  if (found.jacobian.size() > 0) return found;
-  const FitResult whole = FitOn(thinned_, before, found.hypothesis, effective_sample_size_);
-  return whole.Stands() ? whole : found;
+  constexpr double kMuch = 2, kGains = 20;  // ratio, of the score
+  constexpr int kTimes = 3;
+  FitResult whole = found;
+  if (found.jacobian.size() == 0)
+    whole = FitOn(thinned_, before, found.hypothesis, effective_sample_size_);
+  if (!whole.Stands()) return found;
+  // an effect that changes the loop changes what all the others do: their sensitivities are taken
+  // anew while that gains
+  for (int time = 0; time < kTimes && whole.ratio_fit > kMuch; ++time) {
+    FitResult more = FitFrom(whole.hypothesis);
+    if (!more.Stands() || !more.converged) break;
+    const double gain = Gain(whole, more);
+    if (gain > 0) whole = std::move(more);
+    if (gain < kGains) break;
+  }
+  return whole;
 }
 
 double SearchModels::ScoreOf(const FitResult& fit) const {

@@ -71,7 +71,7 @@ MultisineMeasurement::MultisineMeasurement(const RigParameters& drawing, const C
   scenario_.speed_free_from = kInfinity;
   scenario_.record_rate = rate;
   scenario_.duration = static_cast<double>(settle_ + window_ + 1) / rate;
-  Excitation& e = excitation_;
+  Excitation e;
   const std::size_t dot = port_.name.rfind('.');
   e.target = port_.name.substr(0, dot);
   e.port = OfForce(port_) ? "force" : port_.name.substr(dot + 1);
@@ -82,6 +82,8 @@ MultisineMeasurement::MultisineMeasurement(const RigParameters& drawing, const C
   for (std::size_t k = 0; k < lines_.size(); ++k)  // Schroeder: no crest
     e.phases.push_back(-kPi * static_cast<double>(k * k) / n);
   e.amplitude = AmplitudeFor(base);
+  for (std::size_t k = 0; k < settle_ + window_; ++k)
+    excited_.push_back(e.Value(static_cast<double>(k) / rate + 1e-10));
   opposite_ = scenario_;
   scenario_.excitations.push_back(e);
   plan_ = std::make_unique<CommandPlan>(drawing, scenario_);
@@ -147,17 +149,23 @@ double MultisineMeasurement::AmplitudeFor(const LinearResponses& base) const {
 }
 
 Spectrum MultisineMeasurement::Lines(const std::vector<double>& samples) const {
-  Spectrum out;
-  const double rate = drawing_.controller.rate;
-  for (const double f : lines_) {
-    const Complex turn = std::polar(1.0, -2 * kPi * f / rate);
-    Complex phase = 1, sum = 0;
-    for (std::size_t k = 0; k < window_; ++k) {
-      sum += samples[settle_ + k] * phase;
-      phase *= turn;
-    }
-    out.push_back(sum);
+  // all lines side by side: real and imaginary parts of each
+  using Parts = Eigen::ArrayXd;
+  const auto n = static_cast<Eigen::Index>(lines_.size());
+  const Parts angle =
+      -2 * kPi / drawing_.controller.rate * Eigen::Map<const Parts>(lines_.data(), n);
+  const Parts turn_re = angle.cos(), turn_im = angle.sin();
+  Parts re = Parts::Ones(n), im = Parts::Zero(n), sum_re = Parts::Zero(n), sum_im = Parts::Zero(n);
+  Parts next(n);
+  for (std::size_t k = 0; k < window_; ++k) {
+    sum_re += samples[settle_ + k] * re;
+    sum_im += samples[settle_ + k] * im;
+    next = re * turn_re - im * turn_im;
+    im = re * turn_im + im * turn_re;
+    re = next;
   }
+  Spectrum out;
+  for (Eigen::Index j = 0; j < n; ++j) out.emplace_back(sum_re(j), sum_im(j));
   return out;
 }
 
@@ -171,8 +179,7 @@ Spectrum MultisineMeasurement::SpectrumOf(const Record& run, const ResponsePoint
   };
   const std::string& bearing = drawing_.bearings[p.bearing].name;
   const auto port = [&](double factor) {
-    for (std::size_t k = 0; k < y.size(); ++k)
-      y[k] += sign * factor * excitation_.Value(run.TimeAt(k) + 1e-10);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += sign * factor * excited_[k];
   };
   // the reading that holds what was added to it changes as the command behind an injected force
   // does: both are the sensitivity of this loop

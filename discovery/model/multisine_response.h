@@ -43,7 +43,7 @@ class MultisineMeasurement {
   std::vector<double> lines_;
   std::size_t window_ = 0, settle_ = 0;  // rows of the record
   Scenario scenario_, opposite_;         // the second with the excitation turned round
-  Excitation excitation_;
+  std::vector<double> excited_;          // the port's samples, settling and window [its unit]
   std::unique_ptr<CommandPlan> plan_, opposite_plan_;
   // per bearing and side: force command of set-points (1 x coils)
   std::vector<std::vector<Eigen::RowVectorXd>> commands_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/candidate_promise.h"
 #include "discovery/search/likelihood.h"
 #include "discovery/search/residual_peaks.h"
 
@@ -15,14 +17,6 @@ constexpr double kResonanceShows = 1.1;  // least ratio at which a later round s
 constexpr double kRivalExplains = 0.5;   // of the error above the noise
 constexpr double kOpenShare =
     0.2;  // what a full fit may still gain of what the best fit has gained
-
-/// Whether the linear screening promises at least half of what adoption would ask for, on unseen
-/// records or, where these hardly show the effect, much on the fitted ones.
-bool Promising(const FitResult& now, const Candidate& c) {
-  const double fall = now.ratio_validate * now.ratio_validate - c.ratio_validate * c.ratio_validate;
-  return (fall > 0.012 && ExplainedShare(now.ratio_validate, c.ratio_validate) > 0.17) ||
-         ExplainedShare(now.ratio_fit, c.ratio_fit) > 0.3;
-}
 
 /// Of fitted and unseen records alike.
 double BothRatios(double fitted, double unseen) {
@@ -43,14 +37,6 @@ bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
          next.ratio_validate * next.ratio_validate - 1 > 4 * std::max(left, kAtFloor);
 }
 
-/// Largest distance of a rig parameter from its nominal value [sd].
-double LargestShift(const Hypothesis& h) {
-  double most = 0;
-  for (std::size_t k = 0; k < h.free.size(); ++k)
-    if (h.free[k].effect < 0 && h.free[k].sd > 0) most = std::max(most, std::abs(h.Coordinate(k)));
-  return most;
-}
-
 class Ranker {
  public:
   Ranker(const RoundSetting& s, const FitResult& now, int round)
@@ -64,6 +50,7 @@ class Ranker {
     // A resonance moves the rotor: where readings and set-points are explained there is none to
     // seek, however much the currents leave. Responses and static tables may show it otherwise.
     screen.resonances = shows_motion_;
+    screen.local = round_ > 0;
     screen.progress = [&](double f, const std::string& text) {
       s_.progress(0.6 * f, "screening " + text);
     };
@@ -71,6 +58,10 @@ class Ranker {
     const ResidualPeaks peaks =
         predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
     out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
+    if (AreStale()) {
+      s_.bank = SignatureBank();
+      out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
+    }
     ScreenFromNominal();
     FitThePromising();
     Sort();
@@ -89,24 +80,44 @@ class Ranker {
   }
 
  private:
+  /// Signatures of an earlier round were taken without what has been adopted since. A lag of the
+  /// readings shows only in a shaft that moves: where much is left and no signature promises half
+  /// of it, all are taken again.
+  bool AreStale() const {
+    constexpr double kMuch = 2, kHalf = 0.5;  // ratio, share of the error
+    if (round_ == 0 || std::min(now_.ratio_fit, now_.ratio_validate) < kMuch) return false;
+    const auto share = [&](const Candidate& c) {
+      return std::min(ExplainedShare(now_.ratio_fit, c.ratio_fit),
+                      ExplainedShare(now_.ratio_validate, c.ratio_validate));
+    };
+    return std::ranges::none_of(out_.screened,
+                                [&](const Candidate& c) { return share(c) > kHalf; });
+  }
+
   /// Rig parameters that had to move far may stand in for an effect that changes what they change
   /// (a longer gap for the reluctance of the iron). The fit so far then leaves little to show that
   /// effect; the rig file's own parameters do.
   void ScreenFromNominal() {
     constexpr double kFar = 4;         // [sd]
     constexpr std::size_t kTried = 3;  // effects
-    if (round_ > 0 || LargestShift(now_.hypothesis) < kFar) return;
+    if (LargestShift(now_.hypothesis) < kFar) return;
     FitOptions point;
     point.iterations = 0;
     point.effective_sample_size = s_.effective_sample_size;
-    nominal_ = Fit(s_.model, Hypothesis::Base(s_.model.data().rig), point);
+    const RigParameters& file = s_.model.data().rig;
+    Hypothesis nominal = Hypothesis::Base(file);
+    const std::vector<EffectInstance>& effects = now_.hypothesis.rig.effects;
+    for (std::size_t k = file.effects.size(); k < effects.size(); ++k)
+      nominal.AddEffect(effects[k]);
+    nominal_ = Fit(s_.model, nominal, point);
     if (!nominal_.Stands()) return;
     ScreenOptions screen;
     screen.effective_sample_size = s_.effective_sample_size;
     screen.coarse = true;
     SignatureBank bank;
     std::vector<Candidate> found = Screen(s_.model, nominal_, ResidualPeaks(), screen, bank);
-    std::erase_if(found, [&](const Candidate& c) { return c.score > here_; });
+    // beside effects one linear step brings far parameters back only in part
+    if (round_ == 0) std::erase_if(found, [&](const Candidate& c) { return c.score > here_; });
     found.resize(std::min(found.size(), kTried));
     for (Candidate& c : found) c.from_nominal = true;
     out_.screened.insert(out_.screened.begin(), found.begin(), found.end());
@@ -118,16 +129,29 @@ class Ranker {
     for (; next < candidates.size() && static_cast<int>(ranking_.size()) < s_.candidates; ++next) {
       const Candidate& c = candidates[next];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
-      if (c.score > here_ && (ranking_.size() >= 2 || round_ > 0)) break;
+      if (c.score > here_ && !c.from_nominal && (ranking_.size() >= 2 || round_ > 0)) break;
       if (Decided(now_, ranking_, c)) continue;
-      if (round_ == 0 || Promising(now_, c)) FitTheStart(c);
+      if (round_ == 0 || c.from_nominal || Promising(now_, c)) FitTheStart(c);
     }
+    FitTheLocal();
     // A resonance shows only when it is fitted; later rounds try that where much is left.
     for (; next < candidates.size() &&
            (round_ == 0 || (motion_ > 0 ? motion_ : now_.ratio_validate) > 1.3);
          ++next)
       if (candidates[next].narrow && !Decided(now_, ranking_, candidates[next]))
         FitTheStart(candidates[next]);
+  }
+
+  /// Of later rounds: effects that are the best where they act.
+  void FitTheLocal() {
+    constexpr std::size_t kTried = 3;
+    std::vector<const Candidate*> local;
+    for (const Candidate& c : out_.screened)
+      if (!c.narrow && !Ranked(c.effect) && PromisesItsChannels(c)) local.push_back(&c);
+    std::ranges::stable_sort(local, std::greater{},
+                             [](const Candidate* c) { return c->local.explained; });
+    local.resize(std::min(local.size(), kTried));
+    for (const Candidate* c : local) FitTheStart(*c);
   }
 
   /// Other laws at the place of the best: their linear promise says little of how they compare, and
@@ -163,6 +187,8 @@ class Ranker {
     r.screened_ratio = c.ratio_validate;
     if (!r.fit.converged) return;
     Note(r);
+    r.from_nominal = c.from_nominal;
+    if (round_ > 0 && r.from_nominal) Continue(r);
     const auto same = std::ranges::find_if(
         ranking_, [&](const RankedEffect& o) { return IsSameName(o.effect, r.effect); });
     if (same == ranking_.end())
@@ -175,19 +201,22 @@ class Ranker {
   /// error, which of them it is that did says nothing: the next go on while that gains.
   void ContinueTheNext() {
     constexpr std::size_t kNext = 2;
+    for (std::size_t k = 1; k < std::min(ranking_.size(), 1 + kNext); ++k) Continue(ranking_[k]);
+  }
+
+  void Continue(RankedEffect& r) {
     constexpr int kTimes = 2;
-    for (std::size_t k = 1; k < std::min(ranking_.size(), 1 + kNext); ++k)
-      for (int time = 0; time < kTimes; ++time) {
-        if (ExplainedShare(BothRatios(now_), BothRatios(ranking_[k].fit)) < kRivalExplains) break;
-        RankedEffect more;
-        more.fit = FitShortly(s_.model, now_, ranking_[k].fit.hypothesis, s_.effective_sample_size);
-        more.screened_ratio = ranking_[k].screened_ratio;
-        if (!more.fit.converged) break;
-        Note(more);
-        const double gain = ranking_[k].score - more.score;
-        if (gain > 0) ranking_[k] = std::move(more);
-        if (gain < kOpenAfterShortFit) break;
-      }
+    for (int time = 0; time < kTimes; ++time) {
+      if (ExplainedShare(BothRatios(now_), BothRatios(r.fit)) < kRivalExplains && !r.from_nominal)
+        return;
+      RankedEffect more = r;
+      more.fit = FitShortly(s_.model, now_, r.fit.hypothesis, s_.effective_sample_size);
+      if (!more.fit.converged) return;
+      Note(more);
+      const double gain = r.score - more.score;
+      if (gain > 0) r = std::move(more);
+      if (gain < kOpenAfterShortFit) return;
+    }
   }
 
   /// The best, and the next where the short fits left it open.

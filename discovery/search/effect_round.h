@@ -15,6 +15,7 @@ struct RankedEffect {
   FitResult fit;          // with the effect (and what was adopted before it)
   EffectInstance effect;  // fitted values and sd
   double score = 0, probability = 0;
+  bool from_nominal = false;  // the fit began at the rig file's own parameters
   double screened_ratio = 0;  // what the linear screening promised on unseen records
   // what the law leaves in a free shape (discovery/shape/shape_names.h), where that was tried and
   // is less

@@ -49,6 +49,8 @@ struct FitResult {
   std::vector<double> sd;  // of the free parameters, their own units
   // the same of an effect's sizes with the shape of its law held: what tells whether it is there
   std::vector<double> size_sd;
+  // of the last fit: sd of the free parameters over what they are by noise alone [-]
+  std::vector<double> doubt;
   double ratio_fit = 0, ratio_validate = 0;  // [-] rms over the floor: fitted, validation records
   // Σ (shift/sd)² of the rig parameters, what lies beyond 3 sd counted five times
   double penalty = 0;

@@ -189,20 +189,33 @@ EffectInstance LinearJudge::Start(const SignatureBank::Entry& entry, const Eigen
 Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
   const Solution s = Solve(ColumnsOf(entry), Priced(entry));
   Candidate c = {Start(entry, s.amount, 0), s.score, s.ratio_fit, s.ratio_validate,
-                 entry.group.narrow,        false,   {}};
+                 entry.group.narrow,        {},      false,       {}};
   // Beside its true frequency a resonance seems smaller than it is.
   if (c.narrow && !entry.group.scaling.empty())
     c.other_starts.push_back(Start(entry, 2 * s.amount, 0));
   return c;
 }
 
+Eigen::VectorXd LinearJudge::LeftBy(const SignatureBank::Entry& entry) const {
+  const Solution s = Solve(ColumnsOf(entry), Priced(entry));
+  const auto rows = static_cast<Index>(base_.residual.size());
+  Eigen::VectorXd left = Eigen::Map<const Eigen::VectorXd>(base_.residual.data(), rows) -
+                         signatures_.Sum(entry, s.amount);
+  if (nb_ > 0) left -= base_.jacobian * s.shift;
+  return left;
+}
+
+LocalShare LinearJudge::ShareWhereItActs(const SignatureBank::Entry& entry) const {
+  const Eigen::VectorXd left = LeftBy(entry);
+  return ambrig::ShareWhereItActs(model_, base_.residual, {left.begin(), left.end()},
+                                  [this](std::size_t r) { return signatures_.LooksAt(r); });
+}
+
 double LinearJudge::MotionShare(const SignatureBank::Entry& entry) const {
   constexpr double kMostSeen = 0.5;  // of the motion's error, by the bank's records
-  const Solution s = Solve(ColumnsOf(entry), Priced(entry));
   const Eigen::Map<const Eigen::VectorXd> before(base_.residual.data(),
                                                  static_cast<Index>(base_.residual.size()));
-  Eigen::VectorXd after = before - signatures_.Sum(entry, s.amount);
-  if (nb_ > 0) after -= base_.jacobian * s.shift;
+  const Eigen::VectorXd after = LeftBy(entry);
   double all = 0, seen = 0, left = 0;
   for (const Target& t : model_.targets()) {
     if (!ShowsMotion(model_, t) && OverTime(model_.data().records[t.record])) continue;

@@ -2,6 +2,7 @@
 /// What one or several effects would explain of a residual if the model were linear in them: the
 /// rig parameters' signatures are fitted beside theirs under the prior, bounds of the effects'
 /// parameters kept, on the fit records; what is left there and on the unseen records is the score.
+#include "discovery/search/local_share.h"
 #include "discovery/search/signature_bank.h"
 
 namespace ambrig {
@@ -11,6 +12,7 @@ struct Candidate {
   double score = 0;                          // smaller is better, in units of 2 log likelihood
   double ratio_fit = 0, ratio_validate = 0;  // predicted by the linear step
   bool narrow = false;        // a resonance: the linear step says little, only a fit does
+  LocalShare local;           // the same where the effect acts; of later rounds only
   bool from_nominal = false;  // beside the rig file's own parameters, not those of the fit so far
   // of the same effect at the same target, worse at first sight
   std::vector<EffectInstance> other_starts;
@@ -35,6 +37,9 @@ class LinearJudge {
   /// and set-points of free rotors and off records that are not over time (0 to 1), of those that
   /// the bank looks at; 0 where these hold less than half of it, 1 where there is none.
   double MotionShare(const SignatureBank::Entry& entry) const;
+  /// What an entry's linear step explains where the effect acts, of the records that the bank looks
+  /// at.
+  LocalShare ShareWhereItActs(const SignatureBank::Entry& entry) const;
   /// The amount of one signature that would be 3 sd of its own beside the rig parameters.
   double LeastVisible(const SignatureBank::Entry& entry, Eigen::Index column) const;
   /// rms of a signature over all rows, over the floor.
@@ -54,6 +59,8 @@ class LinearJudge {
   };
   static std::vector<Column> ColumnsOf(const SignatureBank::Entry& entry);
   Solution Solve(const std::vector<Column>& columns, int parameters) const;
+  /// The errors over the floor that an entry's linear step leaves, rows of the model.
+  Eigen::VectorXd LeftBy(const SignatureBank::Entry& entry) const;
   Gram Assemble(const std::vector<Column>& columns) const;
   static EffectInstance Start(const SignatureBank::Entry& entry, const Eigen::VectorXd& amount,
                               Eigen::Index first);

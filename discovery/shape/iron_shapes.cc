@@ -189,6 +189,16 @@ Shape HysteresisShape(const EffectInstance& named, const ShapeReach& reach) {
 
 }  // namespace
 
+double SaturatingShare(const std::vector<double>& path) {
+  const auto least = std::min_element(path.begin(), path.end());
+  double all = 0, rise = 0;
+  for (auto p = path.begin(); p != path.end(); ++p) {
+    all += *p;
+    if (p > least) rise += *p - *least;
+  }
+  return all > 0 ? rise / all : 0;
+}
+
 Shape IronShape(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach) {
   if (named.name == "eddy-currents") return EddyShape(named, rig);
   if (reach.density <= 0)

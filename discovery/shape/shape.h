@@ -43,6 +43,11 @@ bool IsIronLaw(const std::string& effect);
 /// Whether both are laws of the magnetisation curve: the free shape of one holds what the other
 /// adds.
 bool ShareMagnetisation(const std::string& a, const std::string& b);
+/// The part of the iron's MMF at the end of a magnetisation curve that is made by a rise of the
+/// incremental path [m] with the flux (nodes at equal distances from zero flux): 0 where the path
+/// is constant or falls, as that of reluctance does; 1 where the iron needs nothing at low flux, as
+/// below a knee.
+double SaturatingShare(const std::vector<double>& path);
 /// Whether the effect is a force or a drag that depends on the motion or on the angle of the shaft.
 bool IsMotionLaw(const std::string& effect);
 /// Whether the shape depends on the flux density of a bearing.

@@ -20,6 +20,7 @@ constexpr double kLawIsExact = 1.1;  // ratio to the noise above which a law is 
 constexpr double kNameContested = 0.02;  // probability of a name that is asked
 constexpr double kSomeOfError = 0.2;     // share of the error that a name explains at least
 constexpr double kPlainGain = 20;        // of the score: what a free shape gains at least
+constexpr double kBothLaws = 0.1;  // share of the iron's MMF by which a second law is one more name
 
 bool IsIron(const EffectInstance& e) { return IsIronLaw(e.name); }
 
@@ -54,6 +55,28 @@ class ShapeJudge {
     fit_ranked("hysteresis");
     // both are magnetisation curves: the free one belongs to the nearer law
     fit_ranked("saturation", "iron-reluctance");
+    if (!curve_.empty()) ShareCurve();
+  }
+
+  /// A magnetisation curve that neither law follows, which starts with a slope and rises from
+  /// there, is of both names: each as probable as the part of the MMF that is its own, the nearer
+  /// law not less than the other.
+  void ShareCurve() {
+    const auto nearer = std::find_if(ranking_.begin(), ranking_.end(), [&](const RankedEffect& r) {
+      return r.shaped && (IsAt(r, "saturation") || IsAt(r, "iron-reluctance"));
+    });
+    if (nearer == ranking_.end()) return;
+    const bool saturates = nearer->effect.name == "saturation";
+    const double rise = SaturatingShare(curve_), part = std::min(0.5, saturates ? 1 - rise : rise);
+    if (part < kBothLaws) return;
+    const std::string other = saturates ? "iron-reluctance" : "saturation";
+    const double score = nearer->score + 2 * std::log((1 - part) / part);
+    const auto known = std::find_if(ranking_.begin(), ranking_.end(),
+                                    [&](const RankedEffect& r) { return IsAt(r, other); });
+    if (known != ranking_.end())
+      known->score = std::min(known->score, score);
+    else
+      Join(other, {}, score);
   }
 
   /// Forces and drags that are plain enough, and whose law is not exact.
@@ -109,7 +132,8 @@ class ShapeJudge {
       return;
     }
     const std::optional<Shaped> shaped = FitFrom(AtUsualSize(EffectNamed(name), target_), true);
-    if (shaped && shaped->score < ranking_[0].score - kPlainGain) Join(name, *shaped);
+    if (shaped && shaped->score < ranking_[0].score - kPlainGain)
+      Join(name, shaped->left, shaped->score);
   }
 
   /// The error that the free shape of a ranked name leaves counts where it is plainly less.
@@ -119,11 +143,13 @@ class ShapeJudge {
     if (!shaped || shaped->score > r.score - kPlainGain) return;
     r.shaped = shaped->left;
     r.score = shaped->score;
+    if (ShareMagnetisation(r.effect.name, r.effect.name)) curve_ = shaped->sizes;
   }
 
   struct Shaped {
     StageRatios left;
     double score = 0;
+    std::vector<double> sizes;
   };
 
   /// The shape that begins at `start`, or at no effect; nothing where the records do not move it.
@@ -137,17 +163,19 @@ class ShapeJudge {
       options.effective_sample_size = s_.effective_sample_size;
       options.base_jacobian = &now_.jacobian;
       options.describe = false;
-      const FitResult fit = FitShape(s_.model, now_.hypothesis, shape, options).fit;
+      const ShapeFit found = FitShape(s_.model, now_.hypothesis, shape, options);
+      const FitResult& fit = found.fit;
       if (!fit.converged) return {};
       return Shaped{{fit.ratio_fit, fit.ratio_validate, WorstRecordRatio(s_.model, fit.residual)},
-                    Score(s_.model, fit, s_.effective_sample_size)};
+                    Score(s_.model, fit, s_.effective_sample_size),
+                    found.sizes};
     } catch (const InputError&) {
       return {};
     }
   }
 
-  /// The catalogue's law of a name that was not ranked.
-  void Join(const std::string& name, const Shaped& shaped) {
+  /// The catalogue's law of a name that was not ranked, with a score of its own.
+  void Join(const std::string& name, const std::optional<StageRatios>& shaped, double score) {
     ScreenOptions what;
     what.effective_sample_size = s_.effective_sample_size;
     what.effect = name;
@@ -158,8 +186,8 @@ class ShapeJudge {
     r.fit = FitOn(s_.model, now_, r.fit.hypothesis, s_.effective_sample_size);
     if (!r.fit.converged || !HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return;
     r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
-    r.shaped = shaped.left;
-    r.score = shaped.score;
+    r.shaped = shaped;
+    r.score = score;
     ranking_.push_back(std::move(r));
   }
 
@@ -169,6 +197,7 @@ class ShapeJudge {
   std::vector<RankedEffect>& ranking_;
   std::string target_;              // of the iron
   std::optional<ShapeReach> iron_;  // of the bearing target_
+  std::vector<double> curve_;       // incremental path of the free magnetisation curve [m]
   bool judged_ = false;
 };
 

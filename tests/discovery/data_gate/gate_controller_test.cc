@@ -99,6 +99,18 @@ TEST(GateController, AReadingThatIsLateByFewRowsIsNamed) {
   EXPECT_NEAR(faults[0].seconds, 5 / RadialRig().controller.rate, 1e-9);
 }
 
+// No factor of a list of units, and none that the sensor could have: the controller would have seen
+// that.
+TEST(GateController, AReadingThatWasLoggedWithAnotherGainIsNamed) {
+  Case c = Measured();
+  for (double& y : testing::SamplesOf(c, kStepRecord, "A.x")) y /= std::sqrt(2.0);
+  const std::vector<DataFault> faults = ControllerFaults(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "unit");
+  EXPECT_EQ(faults[0].channel, "A.x");
+  EXPECT_NEAR(faults[0].factor, std::sqrt(0.5), 1e-3);
+}
+
 // A controller that is another one than the rig file's disagrees with every axis of every record.
 TEST(GateController, AnotherControllerIsNoFaultOfTheData) {
   Case c = Measured({}, 0, "multisine at 60 Hz");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "discovery/search/local_share.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -34,7 +35,7 @@ constexpr double kPlainGain = 100;  // of the score
 TEST(ShareWhereItActs, IsOfTheChannelsWhoseErrorFalls) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult before = WithErrors(c, {3, 4, 3, 4}), after = WithErrors(c, {1, 4, 1.5, 4});
-  const LocalShare share = ShareWhereItActs(c.model, before, after);
+  const LocalShare share = ShareWhereItActs(c.model, before.residual, after.residual);
   EXPECT_NEAR(share.before, 3, 1e-12);
   EXPECT_NEAR(share.explained, 1, 1e-12);
   EXPECT_TRUE(share.seen_there);
@@ -46,7 +47,7 @@ TEST(ShareWhereItActs, IsOfTheChannelsWhoseErrorFalls) {
 TEST(ShareWhereItActs, IsOfAllChannelsWhereAllFallAlike) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult before = WithErrors(c, {3, 4, 3, 4}), after = WithErrors(c, {2, 3, 2, 3});
-  const LocalShare share = ShareWhereItActs(c.model, before, after);
+  const LocalShare share = ShareWhereItActs(c.model, before.residual, after.residual);
   EXPECT_NEAR(share.before, std::sqrt((9.0 + 16) / 2), 1e-12);
   EXPECT_NEAR(share.explained, (9.0 + 16 - 4 - 9) / (9 + 16 - 2), 1e-12);
   EXPECT_FALSE(ExplainsItsChannels(c.model, before, after, kPlainGain, false));
@@ -94,7 +95,7 @@ TEST(ShareWhereItActs, TheFirstEffectExplainsAllOfItsChannels) {
 TEST(ShareWhereItActs, OfNothingThatFallsIsNothing) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult same = WithErrors(c, {3, 4, 3, 4});
-  EXPECT_EQ(ShareWhereItActs(c.model, same, same).explained, 0);
+  EXPECT_EQ(ShareWhereItActs(c.model, same.residual, same.residual).explained, 0);
 }
 
 }  // namespace

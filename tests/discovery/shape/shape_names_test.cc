@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "discovery/shape/shape.h"
+#include "effects/law_tables.h"
 #include "tests/discovery/shape/held_case.h"
 
 namespace ambrig {
@@ -60,6 +65,32 @@ TEST(JudgeByShape, LoopsOfTwoWidthsStayHysteresis) {
   const RankedEffect* eddy = NamedIn(judged.after, "eddy-currents");
   ASSERT_TRUE(eddy);
   EXPECT_LT(eddy->RatioFit(), eddy->fit.ratio_fit - 0.2);
+}
+
+// H = c tan(pi B/(2 B_s)): a slope at low flux, which rises from there. Neither law of the
+// catalogue has both.
+TEST(JudgeByShape, ACurveThatStartsWithASlopeAndSaturatesIsOfBothNames) {
+  std::vector<std::pair<std::string, double>> tangent = {{"reach", 1.0}};
+  for (int k = 0; k < kBhNodes; ++k) {
+    const double B = k / (kBhNodes - 1.0);
+    tangent.emplace_back("path" + std::to_string(k),
+                         4e-5 / std::pow(std::cos(kPi / 2 * B / 1.2), 2));
+  }
+  const RankedTwice judged = RankTwice({IronAtA("bh-curve", tangent)});
+  const RankedEffect* path = NamedIn(judged.after, "iron-reluctance");
+  const RankedEffect* knee = NamedIn(judged.after, "saturation");
+  ASSERT_TRUE(path && knee);
+  EXPECT_GT(path->probability, 0.1);
+  EXPECT_GT(knee->probability, 0.1);
+  EXPECT_GT(path->probability + knee->probability, 0.99);
+}
+
+TEST(SaturatingShare, IsTheRiseBeyondTheLeastPath) {
+  EXPECT_EQ(SaturatingShare({2, 2, 2}), 0);     // reluctance
+  EXPECT_EQ(SaturatingShare({4, 3, 2}), 0);     // with a threshold
+  EXPECT_EQ(SaturatingShare({0, 0, 5}), 1);     // a knee
+  EXPECT_EQ(SaturatingShare({1, 1, 2}), 0.25);  // both
+  EXPECT_EQ(SaturatingShare({0, 0, 0}), 0);
 }
 
 // A law that is exact and uncontested is not asked for its shape.
