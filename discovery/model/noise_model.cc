@@ -260,8 +260,9 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
     const bool uniform = AreAlike(parts);
     // a model's error only adds to it
     c.estimated = uniform ? MedianOf(parts) : LowerQuartileOf(parts);
-    if (const auto whole = coloured.find(channel);
-        whole != coloured.end() && !std::isfinite(c.stated)) {
+    // what is stated says nothing of noise that is plainly larger
+    const bool unknown = !std::isfinite(c.stated) || c.estimated > kNoiseAgrees * c.stated;
+    if (const auto whole = coloured.find(channel); whole != coloured.end() && unknown) {
       c.estimated = std::min(whole->second.rms, least->second);
       c.rows_per_number = whole->second.rows_per_number;
     }

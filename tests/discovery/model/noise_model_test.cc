@@ -112,6 +112,23 @@ TEST(EstimateNoise, FilteredNoiseIsAsLargeAsStated) {
   EXPECT_LT(EstimatedNoise(c, "A.x").used, rms);
 }
 
+// A statement that is far too small says nothing: the whole noise is estimated as without it.
+TEST(EstimateNoise, FilteredNoiseFarAboveTheStatedOneIsEstimatedWhole) {
+  Case c = MeasuredCase(std::vector<MeasuredPlace>(12, {2e-5, 3e-5}));
+  const double keep = 0.95, rms = 3e-6, fresh = rms * std::sqrt(1 - keep * keep);
+  std::uint32_t seed = 1;
+  for (CaseRecord& r : c.records) {
+    double filtered = 0;
+    for (double& v : r.data.channels[0].samples)
+      v += filtered = keep * filtered + fresh * Normal(5, 9, seed++);
+  }
+  c.noise["A.x"] = rms / 30;
+  const double stated = EstimatedNoise(c, "A.x").used;
+  c.noise.erase("A.x");
+  EXPECT_EQ(stated, EstimatedNoise(c, "A.x").used);
+  EXPECT_GT(stated, 0.6 * rms);
+}
+
 TEST(NoiseRemarks, NameWhatIsNotBelievedAndWhatWasNotStated) {
   NoiseModel noise;
   noise.estimated = true;
