@@ -13,10 +13,10 @@ bool Promising(const FitResult& now, const Candidate& c) {
          ExplainedShare(now.ratio_fit, c.ratio_fit) > 0.3;
 }
 
-bool PromisesItsChannels(const Candidate& c) {
+bool PromisesItsChannels(const LocalShare& share) {
   constexpr double kShows = 1.3, kMost = 0.6;  // ratio there, share of the error
-  return c.local.before > kShows && c.local.explained > kMost &&
-         (!c.local.seen_there || c.local.unseen > kMost);
+  return share.before > kShows && share.explained > kMost &&
+         (!share.seen_there || share.unseen > kMost);
 }
 
 double LargestShift(const Hypothesis& h) {

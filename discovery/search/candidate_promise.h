@@ -8,9 +8,9 @@ namespace ambrig {
 /// records or, where these hardly show the effect, much on the fitted ones.
 bool Promising(const FitResult& now, const Candidate& c);
 
-/// Whether the linear screening promises most of the error where the effect acts, however little
+/// Whether the linear screening promises most of the error where an effect acts, however little
 /// that is of what the law of an earlier effect leaves elsewhere.
-bool PromisesItsChannels(const Candidate& c);
+bool PromisesItsChannels(const LocalShare& share);
 
 /// Largest distance of a rig parameter from its nominal value [sd].
 double LargestShift(const Hypothesis& h);

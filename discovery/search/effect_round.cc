@@ -50,7 +50,6 @@ class Ranker {
     // A resonance moves the rotor: where readings and set-points are explained there is none to
     // seek, however much the currents leave. Responses and static tables may show it otherwise.
     screen.resonances = shows_motion_;
-    screen.local = round_ > 0;
     screen.progress = [&](double f, const std::string& text) {
       s_.progress(0.6 * f, "screening " + text);
     };
@@ -142,16 +141,21 @@ class Ranker {
         FitTheStart(candidates[next]);
   }
 
-  /// Of later rounds: effects that are the best where they act.
+  /// Of later rounds: effects that explain most of what is left where they act.
   void FitTheLocal() {
     constexpr std::size_t kTried = 3;
-    std::vector<const Candidate*> local;
-    for (const Candidate& c : out_.screened)
-      if (!c.narrow && !Ranked(c.effect) && PromisesItsChannels(c)) local.push_back(&c);
-    std::ranges::stable_sort(local, std::greater{},
-                             [](const Candidate* c) { return c->local.explained; });
+    constexpr double kLeastOfScore = 20;  // of the score, less is never adopted
+    if (round_ == 0) return;
+    const LinearJudge judge(s_.model, now_, s_.bank, s_.effective_sample_size);
+    std::vector<std::pair<double, const Candidate*>> local;
+    for (const Candidate& c : out_.screened) {
+      if (c.narrow || c.from_nominal || c.score > here_ - kLeastOfScore || Ranked(c.effect)) continue;
+      const LocalShare share = judge.ShareWhereItActs(s_.bank.entries()[c.entry]);
+      if (PromisesItsChannels(share)) local.emplace_back(share.explained, &c);
+    }
+    std::ranges::stable_sort(local, std::greater{}, [](const auto& l) { return l.first; });
     local.resize(std::min(local.size(), kTried));
-    for (const Candidate* c : local) FitTheStart(*c);
+    for (const auto& [explained, c] : local) FitTheStart(*c);
   }
 
   /// Other laws at the place of the best: their linear promise says little of how they compare, and

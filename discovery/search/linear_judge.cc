@@ -189,7 +189,7 @@ EffectInstance LinearJudge::Start(const SignatureBank::Entry& entry, const Eigen
 Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
   const Solution s = Solve(ColumnsOf(entry), Priced(entry));
   Candidate c = {Start(entry, s.amount, 0), s.score, s.ratio_fit, s.ratio_validate,
-                 entry.group.narrow,        {},      false,       {}};
+                 entry.group.narrow,        0,       false,       {}};
   // Beside its true frequency a resonance seems smaller than it is.
   if (c.narrow && !entry.group.scaling.empty())
     c.other_starts.push_back(Start(entry, 2 * s.amount, 0));

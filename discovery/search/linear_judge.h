@@ -12,7 +12,7 @@ struct Candidate {
   double score = 0;                          // smaller is better, in units of 2 log likelihood
   double ratio_fit = 0, ratio_validate = 0;  // predicted by the linear step
   bool narrow = false;        // a resonance: the linear step says little, only a fit does
-  LocalShare local;           // the same where the effect acts; of later rounds only
+  std::size_t entry = 0;      // of the bank
   bool from_nominal = false;  // beside the rig file's own parameters, not those of the fit so far
   // of the same effect at the same target, worse at first sight
   std::vector<EffectInstance> other_starts;

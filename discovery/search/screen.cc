@@ -167,16 +167,16 @@ bool ChangesNothing(const LinearJudge& judge, const SignatureBank::Entry& entry)
 /// Best start of every (effect, target) that the fit does not hold yet, with the next best beside
 /// it.
 std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, SignatureBank& bank,
-                            const ScreenOptions& options) {
-  const LinearJudge judge(model, base, bank, options.effective_sample_size);
+                            double effective_sample_size) {
+  const LinearJudge judge(model, base, bank, effective_sample_size);
   std::vector<Candidate> all, out;
-  for (const SignatureBank::Entry& entry : bank.entries()) {
+  for (std::size_t k = 0; k < bank.entries().size(); ++k) {
+    const SignatureBank::Entry& entry = bank.entries()[k];
     if (Present(base.hypothesis, entry.group.probes[0])) continue;
     if (ChangesNothing(judge, entry)) continue;
     Candidate c = judge.Single(entry);
-    if (!std::isfinite(c.score)) continue;
-    if (options.local) c.local = judge.ShareWhereItActs(entry);
-    all.push_back(std::move(c));
+    c.entry = k;
+    if (std::isfinite(c.score)) all.push_back(std::move(c));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
@@ -212,7 +212,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
     if (kind == ScreenedKind::kResonances) part(from, to)(0, "resonances");
     bank.Simulate(model, base, GroupsToRun(model, base, peaks, kind, options, bank, again),
                   part(from, to));
-    out = Rank(model, base, bank, options);
+    out = Rank(model, base, bank, options.effective_sample_size);
   };
   screen(ScreenedKind::kOrdinary, 0, 0.4);
   const bool asked = !options.effect.empty();

@@ -16,7 +16,6 @@ struct ScreenOptions {
   bool frequencies = true;     // effects that look for a frequency too
   // those of a frequency and a damping, the dearest to seek, where the rest leaves motion open
   bool resonances = true;
-  bool local = false;  // say what each explains where it acts
   std::function<void(double, const std::string&)> progress;
 };
 
