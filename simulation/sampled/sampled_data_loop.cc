@@ -200,7 +200,8 @@ RowSource SampledDataLoop::ValueSource() {
 }
 
 void SampledDataLoop::StartRecord() {
-  record_.emplace(rig, scenario, options.record_rate, clamped, options.recorded_channels,
+  record_.emplace(rig, scenario, options.record_rate, clamped,
+                  RecordedPart{options.recorded_channels, options.recorded_rows, periods},
                   ValueSource());
 }
 
