@@ -11,6 +11,7 @@
 #include <atomic>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -137,6 +138,8 @@ class SampledDataLoop {
   CurrentLoops current_loops_;
   bool controller_on_ = true;
   std::optional<MeasurementNoise> noise_;
+  SampleInstants instants_;  // of the period after that
+  long long instants_of_ = std::numeric_limits<long long>::min();
   std::optional<RunRecord> record_;
   PeriodMeasurement measurement_;  // kept: no allocation in the loop
   SupervisorOutput supervision_;
