@@ -8,6 +8,16 @@
 namespace ambrig {
 namespace {
 
+AmplifierParameters Amplifier() {
+  AmplifierParameters a;
+  a.bus_voltage = 48;
+  a.switching_frequency = 25e3;
+  a.kp = 100;
+  a.ki = 3000;
+  a.i_max = 10;
+  return a;
+}
+
 /// A walk of set-points and feedbacks; the wide one drives duties beyond their limits.
 void ExpectTheSame(const AmplifierParameters& a, int coils, double width) {
   CurrentRegulators together(a);
@@ -33,7 +43,7 @@ void ExpectTheSame(const AmplifierParameters& a, int coils, double width) {
 }
 
 TEST(CurrentRegulators, AsOneByOne) {
-  AmplifierParameters a;
+  AmplifierParameters a = Amplifier();
   for (const bool voltage : {false, true})
     for (const Modulation m : {Modulation::kBiState, Modulation::kTriState})
       for (const int coils : {8, 4, 1})
@@ -45,7 +55,7 @@ TEST(CurrentRegulators, AsOneByOne) {
 }
 
 TEST(CurrentRegulators, OneCoilIsSetAlone) {
-  const AmplifierParameters a;
+  const AmplifierParameters a = Amplifier();
   CurrentRegulators all(a);
   all.ResetToLowerLimit();
   const double lowest = all[0].integral();
