@@ -10,7 +10,7 @@ BearingControl MakeBearingControl(const NominalRig& nominal, std::size_t k) {
   BearingControl c;
   c.name = p.name;
   c.coils = p.coils();
-  c.regulator.fill(CurrentRegulator(nominal->amplifier));
+  c.regulator = CurrentRegulators(nominal->amplifier);
   c.map.k = ForceConstant(p);
   c.map.c0 = BiasCurrent(*nominal, p);
   c.map.i_max = nominal->amplifier.i_max;

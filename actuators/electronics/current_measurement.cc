@@ -23,29 +23,15 @@ struct Converter {
   }
 };
 
-constexpr int kMostSamples = 64;        // of the parameter's range
 constexpr double kLargestNormal = 6.3;  // core/math/noise.h
 
 struct Sensors {
   const double *gain, *offset;  // nullptr: ideal
 };
 
-/// When the samples are really taken.
 struct Sampling {
   int count = 0;
-  bool exact = true;
-  double toward[kMostSamples];  // share of the way to the neighbour; unset where all are exact
-  int neighbour[kMostSamples];
-
-  /// `jitter`: in steps between two samples.
-  Sampling(int samples, double jitter, const float* normals) : count(samples), exact(jitter == 0) {
-    for (int k = 0; k < count && !exact; ++k) {
-      const double late = jitter * static_cast<double>(normals[k]);
-      const int there = k == 0 || (late > 0 && k + 1 < count) ? k + 1 : k - 1;
-      neighbour[k] = there;
-      toward[k] = late * (there - k);
-    }
-  }
+  const SampleInstants& at;
 };
 
 template <class V, class Convert>
@@ -60,8 +46,8 @@ template <class V, class Convert>
   for (int k = 0; k < count; ++k) {
     const V i = LoadAs<V>(truth[k].v);
     V seen = i;
-    if (!sampling.exact)
-      seen = i + (LoadAs<V>(truth[sampling.neighbour[k]].v) - i) * sampling.toward[k];
+    if (!sampling.at.exact)
+      seen = i + (LoadAs<V>(truth[sampling.at.neighbour[k]].v) - i) * sampling.at.toward[k];
     const V value = convert(plain ? seen : gain * seen + offset, k);
     Store(adc[k].v, value);
     sum += value;
@@ -108,11 +94,22 @@ template <class V>
     ConvertNoisily<true, V>(truth, sampling, sensors, normals, coils, noise, converter, adc, out);
 }
 
-AMBRIG_WIDE void MeasureIdeally(const Lane* truth, const Sampling& sampling, const Sensors& sensors,
-                                Lane* adc, CurrentStatistics* out) {
-  Measure<LaneVector>(
+template <class V>
+[[gnu::always_inline]] inline void Ideally(const Lane* truth, const Sampling& sampling,
+                                           const Sensors& sensors, Lane* adc,
+                                           CurrentStatistics* out) {
+  Measure<V>(
       truth, sampling, sensors,
-      [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
+      [](const V& value, int) __attribute__((always_inline)) { return value; }, adc, out);
+}
+
+AMBRIG_WHOLE void IdeallyWhole(const Lane* truth, const Sampling& sampling, const Sensors& sensors,
+                               Lane* adc, CurrentStatistics* out) {
+  Ideally<WholeLaneVector>(truth, sampling, sensors, adc, out);
+}
+AMBRIG_WIDE void IdeallyHalves(const Lane* truth, const Sampling& sampling, const Sensors& sensors,
+                               Lane* adc, CurrentStatistics* out) {
+  Ideally<LaneVector>(truth, sampling, sensors, adc, out);
 }
 AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, const Sampling& sampling, double per_ampere,
                                bool one_way, const Sensors& sensors, const float* normals,
@@ -129,10 +126,22 @@ AMBRIG_WIDE void NoisilyHalves(const Lane* truth, const Sampling& sampling, doub
                              converter, adc, out);
 }
 
+const SampleInstants kOnTime{};
+
 }  // namespace
 
+void SampleInstants::Set(int samples, double jitter, const float* normals) {
+  exact = jitter == 0;
+  for (int k = 0; k < samples && !exact; ++k) {
+    const double late = jitter * static_cast<double>(normals[k]);
+    const int there = k == 0 || (late > 0 && k + 1 < samples) ? k + 1 : k - 1;
+    neighbour[k] = there;
+    toward[k] = late * (there - k);
+  }
+}
+
 void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
-                     bool plain, const MeasurementNormals& normals, Lane* adc,
+                     bool plain, const MeasurementErrors& errors, Lane* adc,
                      CurrentStatistics* statistics) {
   Lane gain, offset;
   double most = 1;        // gain
@@ -144,16 +153,17 @@ void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const Curr
     most = std::max(most, gain[j]);
   }
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
-  if (!s.noisy)
-    return MeasureIdeally(truth, Sampling(s.samples, 0, nullptr), chain, adc, statistics);
+  if (!s.noisy) {
+    const auto ideally = whole_lanes ? IdeallyWhole : IdeallyHalves;
+    return ideally(truth, {s.samples, kOnTime}, chain, adc, statistics);
+  }
   const double lowest = most * s.jitter * s.quantiser.high + s.noise;
   const bool one_way =
       s.one_way && from_zero && kLargestNormal * lowest + s.quantiser.step < -s.quantiser.low;
   const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
   (whole_lanes ? NoisilyWhole : NoisilyHalves)(
-      truth, Sampling(s.samples, s.jitter, normals.instants),
-      most * (1 + kLargestNormal * s.jitter), one_way, chain, normals.readings, s.coils, s.noise,
-      converter, adc, statistics);
+      truth, {s.samples, errors.instants}, most * (1 + kLargestNormal * s.jitter), one_way, chain,
+      errors.readings, s.coils, s.noise, converter, adc, statistics);
 }
 
 }  // namespace ambrig

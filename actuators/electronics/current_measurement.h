@@ -14,11 +14,21 @@ struct MeasurementSettings {
   Quantiser quantiser;
 };
 
-/// Normals of unit variance: samples x coils of the readings, one per sample of its instant.
-/// Unused without noise.
-struct MeasurementNormals {
+/// When the samples of a period are really taken, of all bearings at the same time.
+struct SampleInstants {
+  static constexpr int kMost = 64;  // of the parameter's range
+  bool exact = true;
+  double toward[kMost] = {};  // share of the way to the neighbour; unused where all are exact
+  int neighbour[kMost] = {};
+
+  /// `jitter`: rms in steps between two samples; `normals`: of unit variance, one per sample.
+  void Set(int samples, double jitter, const float* normals);
+};
+
+/// Normals of unit variance, samples x coils, and the instants. Unused without noise.
+struct MeasurementErrors {
   const float* readings;
-  const float* instants;
+  const SampleInstants& instants;
 };
 
 /// Per coil: mean of what was measured; mean square and largest size of the true
@@ -31,7 +41,7 @@ struct CurrentStatistics {
 /// every sensor is ideal (gain 1, no offset, not stuck). A sample that comes early or late is read
 /// on the line to its neighbour on that side.
 void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
-                     bool plain, const MeasurementNormals& normals, Lane* adc,
+                     bool plain, const MeasurementErrors& errors, Lane* adc,
                      CurrentStatistics* statistics);
 
 }  // namespace ambrig

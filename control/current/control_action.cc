@@ -38,7 +38,7 @@ struct Applier {
   }
   void operator()(const SetIntegral& a) const {
     BearingControl& c = Of(a.bearing);
-    c.regulator[Coil(c, a.coil)].set_integral(a.volts);
+    c.regulator.SetIntegral(Coil(c, a.coil), a.volts);
   }
 };
 

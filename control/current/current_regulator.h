@@ -15,21 +15,27 @@ namespace ambrig {
 /// [A] up to which the diodes of a bridge may interrupt a coil's current: no duty holds it.
 inline constexpr double kInterruptedCurrent = 0.2;
 
+/// What the amplifier's parameters make of a regulator.
+struct RegulatorGains {
+  double integral = 0;                   // ki T [V/A]
+  double feedback = 1;                   // 0: a voltage follows the set-point, nothing is fed back
+  double centre = 0, duty_per_volt = 0;  // duty of zero volts [-], [1/V]
+};
+
 class CurrentRegulator {
  public:
   CurrentRegulator() = default;
   /// `nominal` must outlive the regulator.
   explicit CurrentRegulator(const AmplifierParameters& nominal)
       : p_(&nominal),
-        integral_gain_(nominal.ki / nominal.switching_frequency),
-        feedback_gain_(nominal.voltage_mode ? 0 : 1),
-        centre_(SwingsBothWays(nominal.modulation) ? 0.5 : 0),
-        duty_per_volt_(1 / (SwingsBothWays(nominal.modulation) ? 2 * nominal.bus_voltage
-                                                               : nominal.bus_voltage)) {}
+        gains_{nominal.ki / nominal.switching_frequency, nominal.voltage_mode ? 0.0 : 1.0,
+               SwingsBothWays(nominal.modulation) ? 0.5 : 0.0,
+               1 / (SwingsBothWays(nominal.modulation) ? 2 * nominal.bus_voltage
+                                                       : nominal.bus_voltage)} {}
 
   /// Duty of the period that begins. `feedback`: mean of last period's samples [A].
   double Duty(double set_point, double feedback) {
-    const double e = set_point - feedback_gain_ * feedback, increment = integral_gain_ * e;
+    const double e = set_point - gains_.feedback * feedback, increment = gains_.integral * e;
     double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
     const bool above = d > p_->duty_max, below = d < p_->duty_min;
     if (!above && !below) [[likely]] {
@@ -46,7 +52,8 @@ class CurrentRegulator {
   /// kInterruptedCurrent or less.
   void HoldCurrent(double current, double resistance);
   void ResetToLowerLimit();
-  double DutyFromVoltage(double u) const { return centre_ + u * duty_per_volt_; }
+  double DutyFromVoltage(double u) const { return gains_.centre + u * gains_.duty_per_volt; }
+  const RegulatorGains& gains() const { return gains_; }
 
   double integral() const { return integral_; }
   void set_integral(double value) { integral_ = value; }
@@ -55,10 +62,8 @@ class CurrentRegulator {
   double VoltageOfDuty(double d) const;
 
   const AmplifierParameters* p_ = nullptr;
-  double integral_gain_ = 0;  // ki T [V/A]
-  double feedback_gain_ = 1;  // 0: a voltage follows the set-point, nothing is fed back
-  double centre_ = 0, duty_per_volt_ = 0;  // duty of zero volts [-], [1/V]
-  double integral_ = 0;                    // [V]
+  RegulatorGains gains_;
+  double integral_ = 0;  // [V]
 };
 
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 #include "discovery/model/case_model.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -132,16 +133,9 @@ void CaseModel::SetSound(std::vector<char> rows) {
   ApplyHorizons();
 }
 
-bool CaseModel::touches() const {
-  return std::any_of(touches_.begin(), touches_.end(), [](char t) { return t != 0; });
-}
-
-bool CaseModel::limited() const {
-  return std::any_of(horizon_.begin(), horizon_.end(), [](double h) { return h < kInfinity; });
-}
-
 Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
-                            const std::vector<std::string>& channels) const {
+                            const std::vector<std::string>& channels,
+                            const std::vector<std::size_t>* rows) const {
   const CaseRecord& r = case_.records[record];
   Require(plans_[record] != nullptr, "a record over time");
   Scenario scenario = r.scenario;
@@ -153,6 +147,7 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.recorded_channels = channels;
+  options.recorded_rows = rows;
   options.watch = false;
   RigParameters drawing = case_.rig;
   drawing.amplifier.adc_samples_per_period = h.rig.amplifier.adc_samples_per_period;
@@ -175,11 +170,12 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
 }
 
 std::optional<Record> CaseModel::SimulatedChannels(const Hypothesis& h, std::size_t record,
-                                                   bool noise, std::uint64_t seed) const {
+                                                   bool noise, std::uint64_t seed,
+                                                   const std::vector<std::size_t>* rows) const {
   std::vector<std::string> measured;
   for (const Channel& c : case_.records[record].data.channels) measured.push_back(c.name);
   try {
-    return Simulated(h, record, noise, seed, measured);
+    return Simulated(h, record, noise, seed, measured, rows);
   } catch (const std::runtime_error& e) {
     if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
     return std::nullopt;
@@ -193,6 +189,14 @@ std::pair<std::size_t, std::size_t> CaseModel::RowsOf(std::size_t record) const 
     if (t.record <= record) end = t.first + t.count;
   }
   return {first, end};
+}
+
+std::span<const std::size_t> CaseModel::SamplesOf(std::size_t record) const {
+  const Target* longest = nullptr;
+  for (const Target& t : targets_)
+    if (t.record == record && (!longest || t.count > longest->count)) longest = &t;
+  if (!longest) return {};
+  return std::span(sample_).subspan(longest->first, longest->count);
 }
 
 bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool noise,
@@ -241,15 +245,15 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
   if (predictors_[record]) return PredictPoints(rig, record, out);
   Hypothesis h;
   h.rig = rig;
-  const std::optional<Record> simulated = SimulatedChannels(h, record, noise, seed);
-  if (!simulated) return false;
   const Record& data = case_.records[record].data;
+  const SimulatedRows rows(data, RecordRateFor(rig, data.rate), SamplesOf(record));
+  const auto simulated = SimulatedChannels(h, record, noise, seed, &rows.needed());
+  if (!simulated) return false;
   for (const Target& t : targets_) {
     if (t.record != record) continue;
     const Channel* channel = simulated->Find(data.channels[t.channel].name);
     if (!channel) continue;
-    for (std::size_t k = 0; k < t.count; ++k)
-      out[t.first + k] = AtRow(channel->samples, simulated->rate, data, sample_[t.first + k]);
+    for (std::size_t k = 0; k < t.count; ++k) out[t.first + k] = rows.At(channel->samples, k);
   }
   return true;
 }
@@ -269,11 +273,7 @@ std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
     if (fidelity == ModelFidelity::kCoarse) samples = std::min(samples, kCoarseSamples);
   }
   std::vector<std::optional<std::vector<double>>> out(all.size());
-  for (auto& o : out)
-    if (look)
-      o = look->rest;
-    else
-      o.emplace(measured_.size(), 0.0);
+  for (auto& o : out) o = look ? look->rest : std::vector<double>(measured_.size(), 0.0);
   std::vector<char> fine(all.size() * records, 1);
   InParallel(all.size() * records, [&](std::size_t task) {
     const std::size_t k = task / records, r = task % records;

@@ -1,9 +1,12 @@
 #pragma once
 /// The rig as a function: a hypothesis (rig parameters, effects and their parameters) in, the
 /// channels of every record of a case out, sampled where the data are.
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,13 +55,15 @@ class CaseModel {
       const std::vector<Hypothesis>& all, ModelFidelity fidelity = ModelFidelity::kAsSampled,
       const RecordSubset* look = nullptr) const;
   /// Simulated record of one record's scenario, which is over time. `channels`: those wanted;
-  /// empty: all.
+  /// empty: all. `rows`: those wanted besides the last one (SimulatedRows); nullptr: all.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
-                   const std::vector<std::string>& channels = {}) const;
+                   const std::vector<std::string>& channels = {},
+                   const std::vector<std::size_t>* rows = nullptr) const;
   /// The same with the channels of the data; nullopt: the motion became infinite, this hypothesis
   /// cannot be.
   std::optional<Record> SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise,
-                                          std::uint64_t seed) const;
+                                          std::uint64_t seed,
+                                          const std::vector<std::size_t>* rows = nullptr) const;
 
   /// Records that this hypothesis does not hold to their end count up to there only, those that it
   /// loses at once do not count. Returns one line for each.
@@ -71,9 +76,9 @@ class CaseModel {
   const std::vector<char>& sound() const { return sound_; }
   void SetSound(std::vector<char> rows);
   /// Whether the measured rotor reaches its auxiliary bearings in some record.
-  bool touches() const;
+  bool touches() const { return std::ranges::count(touches_, 0) < std::ssize(touches_); }
   /// Whether some record counts in part only.
-  bool limited() const;
+  bool limited() const { return std::ranges::count(horizon_, kInfinity) < std::ssize(horizon_); }
 
   NoiseModel noise_model;          // as stated, until EstimateNoise
   Nuisances nuisances;             // eliminated from every residual; none at first
@@ -88,6 +93,8 @@ class CaseModel {
   /// From the disk where a store is kept, else simulated.
   bool SimulateOrFind(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                       std::vector<double>& out) const;
+  /// Samples of a record's longest channel that take part; a shorter one has the first of them.
+  std::span<const std::size_t> SamplesOf(std::size_t record) const;
   /// Of a record that is not over time.
   bool PredictPoints(const RigParameters& rig, std::size_t record, std::vector<double>& out) const;
   bool FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,

@@ -1,6 +1,25 @@
 #include "discovery/model/record_rows.h"
 
+#include "core/base/errors.h"
+
 namespace ambrig {
+
+SimulatedRows::SimulatedRows(const Record& data, double rate, std::span<const std::size_t> rows) {
+  const auto place_of =
+      [this](std::size_t row) {  // the rows rise: it is one of the last two, or new
+        const std::size_t count = needed_.size();
+        for (std::size_t back = 1; back <= std::min<std::size_t>(count, 2); ++back)
+          if (needed_[count - back] == row) return count - back;
+        Require(count == 0 || needed_.back() < row, "rows that rise");
+        needed_.push_back(row);
+        return count;
+      };
+  for (const std::size_t row : rows) {
+    const BetweenRows p = PlaceOfRow(rate, data, row);
+    places_.push_back({place_of(p.low), p.part});
+    if (p.part > 0) place_of(p.low + 1);
+  }
+}
 
 Record AtRowsOf(const Record& data, const Record& simulated) {
   Record out = data;

@@ -234,6 +234,11 @@ bool RotorModel::FarFromContact(const MotionState& s, std::size_t plane, double 
   if (!surface.empty() || aux_[plane].mount_dof >= 0) return false;
   const PlaneMap& m = aux_[plane].map;
   double reach = 0;  // no point moves further than the sum of what each coordinate moves it by
+  if (m.of_rigid_rotor && m.count == 4) {
+    const auto moves = [&](std::size_t d) { return std::abs(s.q[d]) + horizon * std::abs(s.v[d]); };
+    reach = moves(0) + moves(1) + std::abs(m.z) * (moves(3) + moves(4));
+    return reach < aux_[plane].parameters.clearance - 2e-7;
+  }
   for (std::size_t k = 0; k < AsSize(m.count); ++k) {
     const std::size_t d = AsSize(m.dof[k]);
     reach +=

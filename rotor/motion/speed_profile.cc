@@ -13,6 +13,8 @@ SpeedProfile::SpeedProfile(const std::vector<std::vector<double>>& rows) {
     t_.push_back(row[0]);
     w_.push_back(row[1]);
   }
+  for (std::size_t k = 0; k + 1 < t_.size(); ++k)
+    acceleration_.push_back((w_[k + 1] - w_[k]) / (t_[k + 1] - t_[k]));
   angle_.assign(t_.size(), 0);
   for (std::size_t k = 1; k < t_.size(); ++k)
     angle_[k] = angle_[k - 1] + 0.5 * (w_[k] + w_[k - 1]) * (t_[k] - t_[k - 1]);
@@ -31,8 +33,7 @@ SpinState SpeedProfile::At(double t) const {
   const std::size_t k = Segment(t);
   const double since = t - t_[k];
   if (k + 1 == t_.size()) return {angle_[k] + 0.5 * (w_[k] + w_[k]) * since, w_[k], 0};
-  const double acceleration = (w_[k + 1] - w_[k]) / (t_[k + 1] - t_[k]),
-               speed = w_[k] + acceleration * since;
+  const double acceleration = acceleration_[k], speed = w_[k] + acceleration * since;
   return {angle_[k] + 0.5 * (w_[k] + speed) * since, speed, acceleration};
 }
 

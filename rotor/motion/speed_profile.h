@@ -27,6 +27,7 @@ class SpeedProfile {
  private:
   std::size_t Segment(double t) const;
   std::vector<double> t_, w_, angle_;
+  std::vector<double> acceleration_;  // from each row to the next [rad/s2]
 };
 
 }  // namespace ambrig

@@ -1,10 +1,21 @@
 #include "simulation/sampled/current_loops.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "core/base/index.h"
 
 namespace ambrig {
+
+namespace {
+/// Whether some lane is not 0, without a branch for each.
+bool AnyProbe(const BearingControl& c) {
+  std::uint64_t bits = 0;
+  for (const double probe : c.probe.v) bits |= std::bit_cast<std::uint64_t>(probe);
+  return bits != 0;
+}
+}  // namespace
 
 long long CurrentLoops::CommandsOf(long long n) const {
   return n >= 0 ? n : source_ == SetPoints::kOfTheController ? -1 : 0;
@@ -23,7 +34,7 @@ void CurrentLoops::Targets(long long n, std::vector<BearingControl>& control) {
     if (n < 0) target_[AsSize(s.bearing)][s.index] = s.set_point;
   for (std::size_t k = 0; scenario && k < control.size(); ++k) control[k].set_point = target_[k];
   for (std::size_t k = 0; k < control.size(); ++k)
-    for (int j = 0; j < control[k].coils; ++j)
+    for (int j = 0; j < control[k].coils && AnyProbe(control[k]); ++j)
       if (control[k].probe[j] > 0) target_[k][j] = control[k].probe[j];
 }
 
@@ -32,9 +43,11 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
   for (std::size_t k = 0; k < control.size(); ++k) {
     BearingControl& c = control[k];
     const Lane& target = target_[k];
-    for (int j = 0; j < c.coils; ++j)
-      c.duty[j] = first_period_ ? duty_min_ : c.regulator[AsSize(j)].Duty(target[j], c.feedback[j]);
-    for (int j = 0; j < c.coils; ++j)
+    if (first_period_)
+      std::fill_n(c.duty.v, c.coils, duty_min_);
+    else
+      c.regulator.Duties(target, c.feedback, c.coils, &c.duty);
+    for (int j = 0; j < c.coils && c.AnyDisabled(); ++j)
       if (c.disabled[AsSize(j)]) c.duty[j] = 0;
   }
   first_period_ = false;

@@ -7,12 +7,21 @@
 
 namespace ambrig {
 
+/// What of a run is recorded.
+struct RecordedPart {
+  const std::vector<std::string>& channels;  // those of them that there are; empty: all
+  // Rows, rising, which are recorded besides the last one; nullptr: all. They stand one behind the
+  // other, whatever the record's rate says, and must outlive it.
+  const std::vector<std::size_t>* rows = nullptr;
+  long long periods = 0;  // switching periods of the run from t = 0
+};
+
 class RunRecord {
  public:
   /// `rate` [Hz]; 0: the scenario's. `clamped` runs have load cells in place of
-  /// true positions. `only`: the channels to record, those of them that there are; empty: all.
+  /// true positions.
   RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped,
-            const std::vector<std::string>& only, const RowSource& source);
+            const RecordedPart& part, const RowSource& source);
 
   /// The row of period n, if one is due at its start.
   void AtPeriodStart(long long n) {
@@ -26,6 +35,8 @@ class RunRecord {
 
  private:
   void Row(long long n, int sample);
+  /// Whether the row that is due is one of those to record.
+  bool Wanted();
 
   ChannelValues values_;
   int samples_;                            // ADC samples per period
@@ -37,6 +48,8 @@ class RunRecord {
   };
   std::vector<Written> columns_;  // one per channel of the record
   std::size_t row_ = 0;           // the next one
+  const std::vector<std::size_t>* wanted_ = nullptr;
+  std::size_t due_ = 0, last_ = 0;  // of all rows: the next one and the last
 };
 
 }  // namespace ambrig

@@ -119,8 +119,11 @@ CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double cu
 
 void SampledDataLoop::Measure(long long n, SampledBearing& b, const Lane* truth) {
   if (scenario.noise) noise_->DrawCurrents(n);
+  if (scenario.noise && instants_of_ != n)
+    instants_.Set(b.measurement.samples, b.measurement.jitter, noise_->Instants());
+  instants_of_ = n;
   MeasureCurrents(b.measurement, truth, b.plant->current_sensor.data(), b.plain_sensors,
-                  {noise_->Currents(b.index), noise_->Instants()}, b.adc, &b.current);
+                  {noise_->Currents(b.index), instants_}, b.adc, &b.current);
 }
 
 void SampledDataLoop::EndMeasurement(long long n) {
@@ -200,7 +203,8 @@ RowSource SampledDataLoop::ValueSource() {
 }
 
 void SampledDataLoop::StartRecord() {
-  record_.emplace(rig, scenario, options.record_rate, clamped, options.recorded_channels,
+  record_.emplace(rig, scenario, options.record_rate, clamped,
+                  RecordedPart{options.recorded_channels, options.recorded_rows, periods},
                   ValueSource());
 }
 

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,7 +33,9 @@ namespace ambrig {
 struct SampledOptions {
   double record_rate = 0;                           // 0: the scenario's
   std::vector<std::string> recorded_channels = {};  // empty: all
-  bool noise = true;                                // false: none, whatever the scenario says
+  // of these rows, which rise, and of the last one consists the record; nullptr: of all
+  const std::vector<std::size_t>* recorded_rows = nullptr;
+  bool noise = true;        // false: none, whatever the scenario says
   bool coil_spread = true;  // false: every coil nominal, as models of measured rigs have them
   // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
   double warm_up = -1;
@@ -135,6 +138,8 @@ class SampledDataLoop {
   CurrentLoops current_loops_;
   bool controller_on_ = true;
   std::optional<MeasurementNoise> noise_;
+  SampleInstants instants_;  // of the period after that
+  long long instants_of_ = std::numeric_limits<long long>::min();
   std::optional<RunRecord> record_;
   PeriodMeasurement measurement_;  // kept: no allocation in the loop
   SupervisorOutput supervision_;

@@ -12,8 +12,8 @@ void HoldSetPoints(const NominalRig& nominal, std::vector<BearingControl>& contr
   for (std::size_t k = 0; k < control.size(); ++k) {
     const double resistance = CoilResistance(nominal->bearings[k]);
     for (int j = 0; j < control[k].coils; ++j)
-      control[k].regulator[static_cast<std::size_t>(j)].HoldCurrent(control[k].set_point[j],
-                                                                    resistance);
+      control[k].regulator.HoldCurrent(static_cast<std::size_t>(j), control[k].set_point[j],
+                                       resistance);
   }
 }
 
@@ -39,7 +39,7 @@ PlanePoint StartWithForces(const NominalRig& nominal, const std::vector<double>&
 void SwitchOn(std::vector<BearingControl>& control) {
   for (BearingControl& c : control) {
     c.set_point = Lane{};
-    for (CurrentRegulator& a : c.regulator) a.ResetToLowerLimit();
+    c.regulator.ResetToLowerLimit();
   }
 }
 

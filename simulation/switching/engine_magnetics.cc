@@ -11,13 +11,9 @@
 
 namespace ambrig {
 
-namespace {
-bool AnyOf(const std::array<bool, kLanes>& flags) { return flags != std::array<bool, kLanes>{}; }
-}  // namespace
-
 void SwitchingEngine::SetPatterns(BearingRun& b) {
   const BearingControl& c = loop_.control[b.side->index];
-  if (b.only_edge_moves && !AnyOf(c.disabled)) {
+  if (b.only_edge_moves && !c.AnyDisabled()) {
     for (int j = 0; j < c.coils; ++j)
       b.pattern.t2[j] = LateEnd(c.duty[j] * T_, b.side->late_edge[j], 0, T_);
     return;

@@ -7,11 +7,8 @@
 namespace ambrig {
 
 void SwitchingEngine::Watch(long long n) {
-  for (const BearingRun& b : bearings_) {
-    const CurrentStatistics& current = b.side->current;
-    for (int j = 0; j < b.plant->lanes.coils; ++j)
-      watch_.Coils(b.plant->lanes.resistance[j] * current.mean_square[j], current.largest[j]);
-  }
+  for (const BearingRun& b : bearings_)
+    watch_.Coils(b.plant->lanes.resistance, b.side->current, b.plant->lanes.coils);
   watch_.Period(n);
   const std::size_t events = loop_.Supervise(n, result_);
   if (options_.snapshots && events > 0) Snapshot(result_.events.back().kind);

@@ -19,6 +19,17 @@ class RunWatch {
     copper_sum_ += copper;
     result_.metrics.peak_current = std::max(result_.metrics.peak_current, peak_current);
   }
+  /// The same of a bearing's coils over a period in which they had these resistances [Ohm].
+  void Coils(const Lane& resistance, const CurrentStatistics& current, int coils) {
+    // On the way in registers: memory would be waited for at every coil.
+    double copper = copper_sum_, peak = result_.metrics.peak_current;
+    for (int j = 0; j < coils; ++j) {
+      copper += resistance[j] * current.mean_square[j];
+      peak = std::max(peak, current.largest[j]);
+    }
+    copper_sum_ = copper;
+    result_.metrics.peak_current = peak;
+  }
   /// After period n, with the motion at its end.
   void Period(long long n);
   void Finish();

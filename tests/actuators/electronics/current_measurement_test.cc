@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "actuators/magnetics/whole_lane_vector.h"
 #include "core/math/noise.h"
 
 namespace ambrig {
@@ -32,8 +33,9 @@ Measured OfALine(const MeasurementSettings& s, std::uint64_t block) {
     for (int j = 0; j < kCoils; ++j) truth[k][j] = 1 + kSlope * k * (1 + j) / kCoils;
   const CurrentSensor sensors[kLanes] = {};
   Measured m;
-  MeasureCurrents(s, truth, sensors, true, {normals.data(), normals.data() + kSamples * kCoils},
-                  m.adc, &m.statistics);
+  SampleInstants instants;
+  instants.Set(s.samples, s.jitter, normals.data() + kSamples * kCoils);
+  MeasureCurrents(s, truth, sensors, true, {normals.data(), instants}, m.adc, &m.statistics);
   return m;
 }
 
@@ -92,8 +94,7 @@ TEST(CurrentMeasurement, ReadingsThatAGainOrAnOffsetTakesOutOfTheRangeAreClipped
   const std::vector<float> normals(kSamples * kCoils + kSamples + 7, 0.0F);
   const auto measured = [&] {
     Measured m;
-    MeasureCurrents(s, truth, sensors, false, {normals.data(), normals.data() + kSamples * kCoils},
-                    m.adc, &m.statistics);
+    MeasureCurrents(s, truth, sensors, false, {normals.data(), {}}, m.adc, &m.statistics);
     return m;
   };
   sensors[2].gain = 1.3;
@@ -115,6 +116,41 @@ TEST(CurrentMeasurement, JitterIsClippedAtTheEndOfTheRange) {
   for (std::uint64_t block = 0; block < 20; ++block) {
     const Measured m = OfALine(s, block);
     EXPECT_LE(m.adc[kSamples - 1][kCoils - 1], s.quantiser.high);
+  }
+}
+
+Measured Ideally(bool whole, bool plain) {
+  Lane truth[kSamples];
+  for (int k = 0; k < kSamples; ++k)
+    for (int j = 0; j < kCoils; ++j) truth[k][j] = std::sin(1.7 * k + j);
+  CurrentSensor sensors[kLanes];
+  for (int j = 0; j < kCoils && !plain; ++j) {
+    sensors[j].gain = 1 + 0.01 * j;
+    sensors[j].offset = -0.1 * j;
+  }
+  MeasurementSettings s = Settings(0, 0);
+  s.noisy = false;
+  whole_lanes = whole;
+  Measured m;
+  MeasureCurrents(s, truth, sensors, plain, {nullptr, {}}, m.adc, &m.statistics);
+  whole_lanes = HasWholeLanes();
+  return m;
+}
+
+// Without noise, too, both ways of the lanes have the same bits.
+TEST(CurrentMeasurement, WithoutNoiseHalvesAndWholeLanesAgree) {
+  for (const bool plain : {true, false}) {
+    const Measured halves = Ideally(false, plain), whole = Ideally(HasWholeLanes(), plain);
+    for (int j = 0; j < kCoils; ++j) {
+      EXPECT_EQ(halves.statistics.mean[j], whole.statistics.mean[j]);
+      EXPECT_EQ(halves.statistics.mean_square[j], whole.statistics.mean_square[j]);
+      EXPECT_EQ(halves.statistics.largest[j], whole.statistics.largest[j]);
+      const double gain = plain ? 1 : 1 + 0.01 * j, offset = plain ? 0 : -0.1 * j;
+      for (int k = 0; k < kSamples; ++k) {
+        EXPECT_EQ(halves.adc[k][j], whole.adc[k][j]);
+        EXPECT_EQ(whole.adc[k][j], gain * std::sin(1.7 * k + j) + offset);
+      }
+    }
   }
 }
 
