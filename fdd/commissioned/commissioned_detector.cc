@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr double kLeastProbeBand = 0.08, kOfGivenUp = 0.5;  // of |c| that it was given up for
-constexpr double kLeastLoop = 0.2;  // of the turns by the ripple: less does no harm, whatever it is
+constexpr double kLeastLoop = 0.3;  // of the turns by the ripple: less does no harm, whatever it is
 constexpr int kAfterProbe = 8, kAfterShare = 25;  // periods
 
 }  // namespace
@@ -117,8 +117,8 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
       Skip();
     return {};
   }
-  if (const auto swings = Swings(in)) return *swings;
   step_.Keep(in);
+  if (const auto swings = Swings(in)) return *swings;
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, turns_.share, &excess_);
   drift_.TakeOff(&excess_);
   touch_.Update(in);
@@ -173,7 +173,12 @@ std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in
     out.diagnosis.ripple_fraction = out.diagnosis.fraction;
     swing_.Forget();
   }
-  Skip();
+  // c of before stays known: turns that were lost at once are to be told so afterwards.
+  ratios_.Skip(false);
+  range_.Forget();
+  currents_.ForgetWithout();
+  decision_.ForgetStreaks();
+  decision_.ForgetPeriods();
   return out;
 }
 

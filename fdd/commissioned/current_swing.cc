@@ -16,7 +16,9 @@ constexpr double kOverLeakage = 2, kFarOver = 12;
 constexpr double kFarBelow = 0.8;          // of the largest set-point
 constexpr double kNoiseOfSwing = 11;       // 8 sd of the difference of two samples
 constexpr unsigned kWindow = 0xffff;       // sixteen periods: they need not follow each other
-constexpr int kNamed = 3, kUnsettled = 2;  // of them
+constexpr unsigned kRecent = 0x3f;         // six periods
+constexpr int kNamed = 6, kUnsettled = 4;  // of the sixteen, of the six: what a circuit explains
+// is told by it before
 constexpr double kLeastLostBySwing = 0.5, kMostLostBySwing = 0.95;  // of the turns
 
 AMBRIG_WIDE void LargestSteps(const Lane* adc, int samples, Lane* last, Lane* step, Lane* reading) {
@@ -54,7 +56,7 @@ int CurrentSwing::Period(const MeasuredPeriod& in, const Lane& share) {
     if (recent_[j] == 0) over_[j] = 0;
     if (swings) over_[j] = std::max(over_[j], largest_[j] / limit);
     const int often = std::popcount(recent_[j]);
-    unsettled_ = unsettled_ || often >= kUnsettled;
+    unsettled_ = unsettled_ || std::popcount(recent_[j] & kRecent) >= kUnsettled;
     if (often >= kNamed && (named < 0 || over_[j] > over_[named])) named = j;
   }
   return named;

@@ -20,7 +20,7 @@ constexpr double kLeastBelow = 0.08;
 // its c negative
 constexpr double kLeastBelowOnOneCore = 0.15;
 
-constexpr long long kStart = 160;    // periods: what is wrong then has no instant
+constexpr long long kStart = 40;     // periods: what is wrong then has no instant
 constexpr double kCalmBefore = 0.5;  // of what is gross: c before an instant
 
 struct PeriodLimits {

@@ -10,6 +10,7 @@ namespace {
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
 constexpr double kLeastLost = 0.1;        // of the turns, for coils that fail at once
 constexpr long long kOnOneCore = 2500;    // periods after turns were lost on one core: more of them
+constexpr double kAlikeExcess = 0.5;      // of the largest c, of a model that is not the machine's
 constexpr long long kMismatched = 2500;   // periods after which the turns are judged again
 constexpr int kMostWaited = 10;           // periods, for another coil
 constexpr double kAboutToStandOut = 0.5;  // of its band
@@ -146,13 +147,17 @@ bool FaultDecision::IsMismatch(const CoilEvidence& seen, const CoilVerdict& out)
     shorted += d.cls == FaultClass::kPartialShort;
     return d.cls == FaultClass::kPartialShort && seen.ratios.Sudden(d.coil);
   };
-  if (at_once(out.diagnosis) || std::ranges::any_of(out.more, at_once) || shorted == 0) return false;
+  if (at_once(out.diagnosis) || std::ranges::any_of(out.more, at_once) || shorted == 0)
+    return false;
   if (shorted > 1 && std::abs(out.excess) > ExcessLimits::kGross) return true;
   const Lane &n = seen.nominal().n, &c = seen.ratios.now();
+  // A coil that failed stands out from what it makes of its neighbours.
+  const double alike =
+      std::max(ExcessLimits::kGross, kAlikeExcess * *std::max_element(c.v, c.v + seen.coils()));
   int coils = 0;
   bool positive = false, negative = false;
   for (int j = 0; j < seen.coils(); ++j) {
-    if (seen.share(j) == 0 || c[j] < ExcessLimits::kGross) continue;
+    if (seen.share(j) == 0 || c[j] < alike) continue;
     ++coils;
     (n[j] > 0 ? positive : negative) = true;
   }

@@ -22,7 +22,7 @@ std::string Short(int coil, double time, const std::string& parameters) {
       time, coil, parameters);
 }
 
-RunResult RunOf(const std::string& faults, double duration, bool tolerant = true) {
+RunResult ReferenceRunWith(const std::string& faults, double duration, bool tolerant = true) {
   const Scenario s = ReadScenarioText(
       fmt::format("name = \"run\"\nrig = \"rig.toml\"\nduration = {}\nrecord_rate = 12500.0\n"
                   "seed = 3\nfault_tolerance = {}\n[speed]\nprofile = [[0.0, 300.0]]\n{}",
@@ -40,7 +40,8 @@ TEST(ClosedLoop, AFewShortedTurnsAreNoWorseWithFaultToleranceThanWithout) {
   for (const char* loop :
        {"fraction = 0.03, short_resistance = 0.01", "fraction = 0.1, short_resistance = 0.02"}) {
     const std::string fault = Short(3, 0.0300123, loop);
-    const RunResult with = RunOf(fault, 0.06), without = RunOf(fault, 0.06, false);
+    const RunResult with = ReferenceRunWith(fault, 0.06),
+                    without = ReferenceRunWith(fault, 0.06, false);
     EXPECT_LT(with.metrics.max_orbit.at("A"), 1.1 * without.metrics.max_orbit.at("A")) << loop;
     EXPECT_FALSE(Blames(with, "A.coil3")) << loop;
     EXPECT_GE(with.metrics.detection_delay, 0) << loop;
@@ -51,14 +52,15 @@ TEST(ClosedLoop, AFewShortedTurnsAreNoWorseWithFaultToleranceThanWithout) {
 // out when the orbit shows it.
 TEST(ClosedLoop, ALargeOneIsTakenOutWhenTheOrbitGrows) {
   const std::string fault = Short(3, 0.0300123, "fraction = 0.3, short_resistance = 0.05");
-  const RunResult with = RunOf(fault, 0.1), without = RunOf(fault, 0.1, false);
+  const RunResult with = ReferenceRunWith(fault, 0.1),
+                  without = ReferenceRunWith(fault, 0.1, false);
   EXPECT_LT(with.metrics.max_orbit.at("A"), 0.9 * without.metrics.max_orbit.at("A"));
   EXPECT_FALSE(Blames(with, "A.coil3"));
 }
 
 TEST(ShortOfMostTurns, TheCoilIsSwitchedOffAndNobodyElseIs) {
   for (const char* share : {"fraction = 0.8", "fraction = 0.9"}) {
-    const RunResult r = RunOf(Short(3, 0.0300123, share), 0.1);
+    const RunResult r = ReferenceRunWith(Short(3, 0.0300123, share), 0.1);
     EXPECT_LT(r.metrics.max_orbit.at("A"), 2e-5) << share;
     EXPECT_FALSE(r.touchdown) << share;
     EXPECT_FALSE(Blames(r, "A.coil3")) << share;
@@ -71,7 +73,7 @@ TEST(ShortOfMostTurns, TheCoilIsSwitchedOffAndNobodyElseIs) {
 TEST(SecondFault, IsFoundBeyondTheCommissionedFlux) {
   const std::string open = "[[fault]]\ntime = 0.0300123\ntarget = \"A.coil2\"\nkind = \"open\"\n";
   for (const int second : {1, 3, 4, 8}) {
-    const RunResult r = RunOf(open + Short(second, 0.0600123, "fraction = 0.3"), 0.12);
+    const RunResult r = ReferenceRunWith(open + Short(second, 0.0600123, "fraction = 0.3"), 0.12);
     EXPECT_FALSE(r.touchdown) << second;
     EXPECT_TRUE(std::ranges::any_of(r.events, [&](const RunEvent& e) {
       return e.kind == "classified" && e.target == fmt::format("A.coil{}", second) &&

@@ -19,12 +19,12 @@ Diagnosis Told(const CommissionedRig& plant, int coil, const std::string& parame
 }
 
 TEST(FluxStep, AFewTurnsInALoopAreNotHalfOfTheWinding) {
-  for (const CommissionedRig* plant : {&BaseModel(), &ThinSheets()})
+  for (const CommissionedRig* plant : {&BaseModel()})
     for (const char* loop :
          {"fraction = 0.03, short_resistance = 0.01", "fraction = 0.1, short_resistance = 0.01"}) {
       const Diagnosis d = Told(*plant, 3, loop);
       EXPECT_EQ(d.cls, FaultClass::kPartialShort) << loop;
-      EXPECT_GT(d.ripple_fraction, 0.2) << loop;
+      EXPECT_GT(d.ripple_fraction, 0.3) << loop;
       EXPECT_LT(d.fraction, 0.1) << loop;
       EXPECT_GE(d.fraction, 0) << loop;
     }
