@@ -108,8 +108,8 @@ TEST(CommissionedShares, ASetPointBelowZeroIsMissedByTheCurrentAlone) {
   }
 }
 
-// Turns are lost at once, iron bends over some ten periods: a c that becomes gross at once is judged
-// wherever the fluxes are.
+// Turns are lost at once, iron bends over some ten periods: a c that becomes gross at once is
+// judged wherever the fluxes are.
 TEST(CommissionedShares, SuddenLossesAreJudgedInsideAndBeyondTheRange) {
   for (const std::vector<int>& beyond : {std::vector{1}, {1, 2}, {4}, {1, 2, 6}}) {
     LearntBench b(beyond);
