@@ -17,7 +17,7 @@ constexpr double kFarBelow = 0.8;          // of the largest set-point
 constexpr double kNoiseOfSwing = 11;       // 8 sd of the difference of two samples
 constexpr unsigned kWindow = 0xffff;       // sixteen periods: they need not follow each other
 constexpr unsigned kRecent = 0x3f;         // six periods
-constexpr int kNamed = 8, kUnsettled = 6;  // of the sixteen, of the six: what a circuit explains
+constexpr int kNamed = 6, kUnsettled = 4;  // of the sixteen, of the six: what a circuit explains
 // is told by it before
 constexpr double kLeastLostBySwing = 0.5, kMostLostBySwing = 0.95;  // of the turns
 

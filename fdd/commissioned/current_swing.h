@@ -17,9 +17,9 @@ class CurrentSwing {
   CurrentSwing(const LinkageModel& nominal, const SamplingSettings& sampling, double noise);
 
   /// One period; `share`: turns that every coil is believed to have, 0: not watched [-]. The coil
-  /// that has swung in eight of the last sixteen periods, the one of the largest steps; -1: none.
+  /// that has swung in six of the last sixteen periods, the one of the largest steps; -1: none.
   int Period(const MeasuredPeriod& in, const Lane& share);
-  /// Whether some current has swung in all of the last six periods: nothing is to be concluded
+  /// Whether some current has swung in four of the last six periods: nothing is to be concluded
   /// of the others.
   bool unsettled() const { return unsettled_; }
   /// Share of its turns that a coil with such steps has lost, from its inductance [-].

@@ -62,9 +62,9 @@ TEST(CurrentSwing, OneStepIsNone) {
   Readings readings(3);
   CurrentSwing swing = readings.Make();
   for (int k = 0; k < 10; ++k) EXPECT_EQ(readings.Period(swing, false), -1);
-  for (int k = 1; k < 8; ++k) {
+  for (int k = 1; k < 6; ++k) {
     EXPECT_EQ(readings.Period(swing, true), -1);
-    EXPECT_EQ(swing.unsettled(), k >= 6) << k;
+    EXPECT_EQ(swing.unsettled(), k >= 4) << k;
   }
   EXPECT_EQ(readings.Period(swing, true), 2);
 }
