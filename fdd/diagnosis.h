@@ -45,6 +45,9 @@ struct Diagnosis {
   double time = 0;        // of the decision [s]
   double onset = 0;       // start of the first period that looks faulty [s]
   double confidence = 0;  // probability of the class against the next best, 0..1
+  // of the turns as the slopes of the ripple see it, partial-short only: larger than `fraction`
+  // where turns close through a resistance (fdd/examination/flux_step.h); 0: as `fraction`
+  double ripple_fraction = 0;
   double excess = 0;      // of its linkage (fdd/circuit/slope_excess.h), 0: not known [-]
 };
 

@@ -2,6 +2,7 @@
 
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "scenarios/expect_file.h"
+#include "simulation/commissioning/other_machine.h"
 
 namespace ambrig {
 
@@ -16,7 +17,9 @@ std::unique_ptr<FaultSupervisor> SupervisorOf(const RigParameters& rig, const Sc
   watch.stiffness_compensation =
       scenario.stiffness_compensation && scenario.retuned_controller.empty();
   watch.cache_dir = RedistributionCacheDirectory();
-  return std::make_unique<FaultSupervisor>(NominalRig(rig), watch);
+  RigParameters watched = rig;
+  if (!OtherMachineNote(rig).empty()) watched.detection.commissioning = "none";
+  return std::make_unique<FaultSupervisor>(NominalRig(watched), watch);
 }
 
 }  // namespace ambrig

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "scenarios/expect_file.h"
+#include "simulation/commissioning/other_machine.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"
 #include "simulation/run_supervisor.h"
@@ -144,6 +145,9 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
   ScoreDetection(scenario, result);
   NoteStuckSwitches(rig, scenario, result);
   NoteUnwatched(scenario, why_unwatched, result);
+  if (const std::string note = OtherMachineNote(rig);
+      !note.empty() && why_unwatched.empty() && scenario.fault_tolerant)
+    result.notes.push_back(note);
   NoteUncovered(scenario, result);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

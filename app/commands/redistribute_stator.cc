@@ -16,6 +16,7 @@ namespace ambrig {
 namespace {
 
 constexpr int kDirectionsOfReach = 24;
+constexpr double kTrueAdded = 0.5;  // of a force beside the load
 constexpr double kTrueForce = 0.05, kSmallForce = 1, kForceStep = 0.5;  // -, [N], [N]
 
 /// Forces from the load on that a map truly gives, by the network that made neither it nor its
@@ -34,6 +35,18 @@ bool Gives(const PoleNetwork& network, const CurrentMap& map, const Eigen::Vecto
          kTrueForce * std::max(force.norm(), kSmallForce);
 }
 
+/// Whether `added` to the load is truly added: within a part of its own size, which may be small
+/// beside the load.
+bool Adds(const PoleNetwork& network, const CurrentMap& map, const Eigen::VectorXd& left,
+          const Eigen::Vector2d& load, const Eigen::Vector2d& added, int axes) {
+  const auto force = [&](const Eigen::Vector2d& f) {
+    const Eigen::VectorXd set =
+        map.SetPoints(f.x(), f.y()).head(network.coils()).cwiseProduct(left);
+    return Eigen::VectorXd(network.Force(Eigen::Vector3d::Zero(), set).head(axes));
+  };
+  return (force(load + added) - force(load) - added.head(axes)).norm() <= kTrueAdded * added.norm();
+}
+
 StatorReach ReachOf(const StatorProblem& p, const CurrentMap& map, const Eigen::Vector2d& load,
                     double most) {
   StatorReach out;
@@ -47,7 +60,9 @@ StatorReach ReachOf(const StatorProblem& p, const CurrentMap& map, const Eigen::
     double r = 0;
     while (true) {
       const Eigen::Vector2d next = load + (r + kForceStep) * way;
-      if (next.cwiseAbs().maxCoeff() > most || !Gives(*p.network, map, p.turns_left, next, p.axes))
+      if (next.cwiseAbs().maxCoeff() > most ||
+          !Gives(*p.network, map, p.turns_left, next, p.axes) ||
+          !Adds(*p.network, map, p.turns_left, load, next - load, p.axes))
         break;
       r += kForceStep;
     }
@@ -125,7 +140,9 @@ int RedistributeStator(const NominalRig& rig, std::size_t bearing,
     StatorProblem p = StatorProblemOf(network, axes, healthy, left, load);
     CurrentMap map = healthy;
     const std::string cls = StatorMapAfterFailure(p, true, &map);
-    const StatorReach reach = ReachOf(p, map, load, most);
+    // Without a map nothing is redistributed, and what is left in it carries nobody.
+    const bool none = cls == ToText(SolvabilityClass::kNone);
+    const StatorReach reach = none ? StatorReach{} : ReachOf(p, map, load, most);
     if (!cls.ends_with("load")) p.load.setZero();
     json["sets"].push_back(JsonOfSet(p, map, cls, sets[n], reach));
     const auto& item = json["sets"].back();

@@ -15,6 +15,9 @@ constexpr int kLooks = 3;
 constexpr double kIdleFirst = 10e-3, kIdleAgain = 50e-3, kBetween = 8e-3;  // [s] of idle coils
 constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of the orbit; [m]
 constexpr double kLeastOfRoom = 0.025;  // growth after a derating, of the rotor's room
+// the same of turns that close through a resistance, and for how long [s]: they are driven as
+// before, and a coil that is switched off costs an orbit, too
+constexpr double kLeastOfLoops = 0.075, kOfLoops = 60e-3;
 
 /// Whether the orbit grew from `before` by half and by `least` more [m].
 bool OrbitGrew(double before, double after, double least) {
@@ -63,15 +66,16 @@ void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
   looks_[coil] = look;
 }
 
-void CoilProbes::Derated(int coil, double t, double room) {
-  deratings_[coil] = {t, std::max(slice_[0].orbit, slice_[1].orbit), 0, kLeastOfRoom * room};
+void CoilProbes::Derated(int coil, double t, double room, bool closed) {
+  deratings_[coil] = {t + (closed ? kOfLoops : kFirst), std::max(slice_[0].orbit, slice_[1].orbit),
+                      0, (closed ? kLeastOfLoops : kLeastOfRoom) * room};
 }
 
 int CoilProbes::MadeWorse(double t) {
   for (auto it = deratings_.begin(); it != deratings_.end();) {
     const auto [coil, d] = *it;
     const bool grown = OrbitGrew(d.before, d.after, d.least_growth);
-    if (!grown && t < d.at + kFirst) {
+    if (!grown && t < d.until) {
       ++it;
       continue;
     }

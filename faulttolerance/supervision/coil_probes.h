@@ -30,9 +30,10 @@ class CoilProbes {
   double Motion() const;
   void GivenUp(int coil, FaultClass cls, double t);
   /// A coil is driven as one with fewer turns from t on. `room`: of the rotor at the bearing [m].
-  void Derated(int coil, double t, double room);
+  /// `closed`: the turns close through a resistance, and what flux they keep out comes slowly.
+  void Derated(int coil, double t, double room, bool closed);
   /// The coil after whose derating the orbit grew within 10 ms, by half and by 2.5 % of the
-  /// rotor's room; -1: none. Told once.
+  /// rotor's room (closed turns: within 60 ms, and by 7.5 %); -1: none. Told once.
   int MadeWorse(double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);
@@ -68,7 +69,7 @@ class CoilProbes {
   };
   /// Of a coil that was derated.
   struct Derating {
-    double at = 0, before = 0, after = 0, least_growth = 0;  // [s], [m]
+    double until = 0, before = 0, after = 0, least_growth = 0;  // [s], [m]
   };
   bool FalseCurrentIsOpen(int coil) const;
   bool Grown(const Look& look) const;

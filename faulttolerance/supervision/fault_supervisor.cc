@@ -8,6 +8,7 @@
 #include "core/base/coil_name.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/map_checks.h"
+#include "faulttolerance/supervision/stator_settings.h"
 #include "faulttolerance/supervision/watched_bearing.h"
 #include "rig/clearance.h"
 #include "rig/parameters/bearing_kind.h"
@@ -20,11 +21,12 @@ namespace {
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
+constexpr double kFewestTurns = 0.35;  // left of a coil: with fewer its current loop swings
 constexpr double kProbeCurrent = 0.4;  // of a coil's bias current
 constexpr double kCalm = 0.2;          // of the clearance: motion while idle coils are probed
 constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
-constexpr double kBusyCurrent =
-    0.25;  // of it, of a bearing that has lost turns: a coil that is idle no more
+// of it, of a bearing that has lost turns: a coil that is idle no more
+constexpr double kBusyCurrent = 0.25;
 
 }  // namespace
 
@@ -39,11 +41,7 @@ FaultSupervisor::FaultSupervisor(const NominalRig& nominal, const FaultSuperviso
   bus_weight_ = 1 / std::max(1.0, noisy * noisy);
   bus_ = a.bus_voltage;
   for (const BearingParameters& b : rig_->bearings) {
-    if (b.kind->linearise && options.redistribution == "force-by-force")
-      throw InputError(
-          fmt::format("{}: redistribution = \"force-by-force\" with bearing {} of kind "
-                      "\"{}\", allowed: auto, matrix",
-                      rig_->file, b.name, b.kind->name));
+    CheckWhatStatorsAllow(*rig_, b, options.redistribution);
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
     w->index = watched_.size();
@@ -190,9 +188,9 @@ bool FaultSupervisor::NothingElseCarries(Watched& w, const DetectorAlarm& alarm,
 void FaultSupervisor::TakeOutDerated(Watched& w, double t, const BearingControl& control,
                                      SupervisorOutput& out) {
   const int coil = w.probes.MadeWorse(t);
-  if (coil < 0 || !w.mapped || !(w.turns_left[coil] > 0) || w.turns_left[coil] >= 1) return;
+  if (coil < 0 || !w.mapped || !(w.turns_left[coil] > 0)) return;
   const auto derated = (w.turns_left.array() > 0 && w.turns_left.array() < 1).count();
-  const std::string cls = derated == 1 ? ClassWithout(w, coil, control) : "";
+  const std::string cls = derated <= 1 ? ClassWithout(w, coil, control) : "";
   if (cls != ToText(SolvabilityClass::kExact) && cls != "force by force") return;
   w.turns_left[coil] = 0;
   w.detector->SetTurns(coil, 0);
@@ -204,18 +202,21 @@ void FaultSupervisor::TakeOutDerated(Watched& w, double t, const BearingControl&
 }
 
 void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out) {
-  const bool lost = d.cls != FaultClass::kPartialShort;
-  // Of turns believed to work a negative part may be shorted; no coil has more than all.
+  const bool lost =
+      d.cls != FaultClass::kPartialShort || w.turns_left[d.coil] * (1 - d.fraction) < kFewestTurns;
   w.turns_left[d.coil] = lost ? 0 : std::min(1.0, w.turns_left[d.coil] * (1 - d.fraction));
   if (lost) {
+    if (d.cls == FaultClass::kPartialShort) w.detector->SetTurns(d.coil, 0);
     out.actions.push_back(DisableCoil{w.index, d.coil});
     w.probes.GivenUp(d.coil, d.cls, d.time);
   } else {
-    w.probes.Derated(d.coil, d.time, ClearanceOf(*w.bearing));
+    w.probes.Derated(d.coil, d.time, ClearanceOf(*w.bearing), d.ripple_fraction > d.fraction);
   }
+  const char* closed = d.ripple_fraction > d.fraction ? ", in a closed loop" : "";
   actions_.push_back(
       {d.time, CoilName(w.bearing->name, d.coil), lost ? "disable" : "derate",
-       lost ? ToText(d.cls) : fmt::format("{}, {:.3f} of the turns", ToText(d.cls), d.fraction)});
+       lost ? ToText(d.cls)
+            : fmt::format("{}, {:.3f} of the turns{}", ToText(d.cls), d.fraction, closed)});
 }
 
 void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
@@ -287,6 +288,7 @@ void FaultSupervisor::Restore(Watched& w, int coil, double turns, double t,
                               const std::string& reason, bool position_loop,
                               const BearingControl& control, SupervisorOutput& out) {
   const std::string name = CoilName(w.bearing->name, coil);
+  turns = std::max(turns, w.turns_left[coil]);
   w.turns_left[coil] = turns;
   out.actions.push_back(EnableCoil{w.index, coil});
   out.events.push_back({t, "restored", name, reason, 1 - turns});

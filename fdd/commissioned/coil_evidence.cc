@@ -35,10 +35,14 @@ bool CoilEvidence::LessThanATurn(int coil, double excess) const {
          excess * of_coil < kLeastTurns * ExcessOfLoss(m, coil).own;
 }
 
+double CoilEvidence::GrossAbove(int coil) const {
+  if (!range.left()) return ExcessLimits::kGrossAbove;
+  return Relies() && ratios.Sudden(coil) ? ExcessLimits::kGross : range.gross_above()[coil];
+}
+
 bool CoilEvidence::Suffices(int coil, double excess) const {
   if (LessThanATurn(coil, excess)) return false;
-  const double above = range.left() ? range.gross_above()[coil] : ExcessLimits::kGrossAbove;
-  const bool gross = excess < -ExcessLimits::kGross || excess > above;
+  const bool gross = excess < -ExcessLimits::kGross || excess > GrossAbove(coil);
   if (Relies() && (!range.left() || gross) && !ratios.Disturbed())
     return PhasesAgree(coil) || currents.IsFalse(coil) || currents.IsMissing(coil);
   if (MayBounce()) return false;
@@ -73,7 +77,7 @@ Diagnosis CoilEvidence::Classify(int coil, double excess, double onset) const {
     d.cls = FaultClass::kSwitchStuckOn;
   } else if (excess > 0) {
     d.cls = FaultClass::kPartialShort;
-    d.fraction = 1 - 1 / std::sqrt(1 + excess);
+    d.fraction = d.ripple_fraction = 1 - 1 / std::sqrt(1 + excess);
   } else if (share(coil) < 1 && excess > -ExcessLimits::kMostRegained && !currents.IsFalse(coil)) {
     // A loop that closes through its own resistance was taken for more turns than it has: of the
     // turns believed to work, a negative part is shorted.

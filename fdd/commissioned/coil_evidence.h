@@ -34,6 +34,9 @@ struct CoilEvidence {
   /// Not commissioned, out of the range, or the model's own errors show.
   bool Doubtful() const { return !Relies() || range.left() || ratios.Disturbed(); }
 
+  /// c > 0 from which on the coil is gross: outside the commissioned range larger, unless c became
+  /// gross at once [-].
+  double GrossAbove(int coil) const;
   /// c of the on and of the off phase have one sign, and the smaller is at
   /// least 0.35 of the larger.
   bool PhasesAgree(int coil) const;

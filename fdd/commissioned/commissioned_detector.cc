@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr double kLeastProbeBand = 0.08, kOfGivenUp = 0.5;  // of |c| that it was given up for
-constexpr int kAfterProbe = 8, kAfterShare = 25;            // periods
+constexpr double kLeastLoop = 0.3;  // of the turns by the ripple: less does no harm, whatever it is
+constexpr int kAfterProbe = 8, kAfterShare = 25;  // periods
 
 }  // namespace
 
@@ -25,7 +26,9 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       range_(setup.model, commissioned),
       currents_(setup.model, setup.settings.sampling, setup.settings.current_noise),
       drift_(setup.model, setup.settings.sampling, commissioned.usable()),
-      jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
+      jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise),
+      swing_(setup.model, setup.settings.sampling, setup.settings.current_noise),
+      step_(setup.model, setup.settings.sampling) {
   for (int j = 0; j < setup.model.coils; ++j) turns_.share[j] = 1;
 }
 
@@ -51,6 +54,7 @@ bool CommissionedDetector::AllAreWhole() const {
 }
 
 void CommissionedDetector::TakeShare(int coil, double share) {
+  if (share == 0 || share == 1) closed_[coil] = 0;
   turns_.share[coil] = share;
   turns_.taken[coil] = count_;
   filter_.SetTurns(coil, share);
@@ -113,12 +117,15 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
       Skip();
     return {};
   }
+  step_.Keep(in);
+  if (const auto swings = Swings(in)) return *swings;
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, turns_.share, &excess_);
   drift_.TakeOff(&excess_);
   touch_.Update(in);
   range_.Update(period_, excess_, jumps_, turns_, count_);
   const bool only_gross = touch_.touching() || range_.left();
-  ratios_.Update(excess_, {bands_, range_.gross_above(), only_gross, count_});
+  const bool left = range_.left() && !touch_.touching();
+  ratios_.Update(excess_, {bands_, range_.gross_above(), only_gross, left, count_});
   if (drift_.TakesFirst(!only_gross && !bands_.widened(), ratios_.windows(), bands_)) {
     ratios_.Restart();
     decision_.ForgetStreaks();
@@ -136,6 +143,11 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
     return decision_.WithoutCurrent(Evidence(in));
   }
   CoilVerdict out = Judge(Evidence(in));
+  if (out.decided && !StandsBesideLoop(out)) {
+    out.decided = false;
+    out.doubtful = true;
+  }
+  if (out.decided && out.turns == 0) TellCarried(&out);
   turns_.erred = turns_.erred || out.turns == 1;
   if (!out.doubtful && !out.alarm && !touch_.touching())
     drift_.Follow(count_, ratios_.windows(), bands_);
@@ -149,7 +161,47 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
   return out;
 }
 
+std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in) {
+  const int coil = swing_.Period(in, turns_.share);
+  if (!swing_.unsettled()) return {};
+  CoilVerdict out;
+  out.doubtful = true;
+  if (coil >= 0) {
+    out.alarm = out.decided = true;
+    const double end = in.t + sampling_.samples * sampling_.step;
+    out.diagnosis = {coil, FaultClass::kPartialShort, swing_.Lost(coil, in), end, in.t, 1};
+    out.diagnosis.ripple_fraction = out.diagnosis.fraction;
+    swing_.Forget();
+  }
+  // c of before stays known: turns that were lost at once are to be told so afterwards.
+  ratios_.Skip(false);
+  range_.Forget();
+  currents_.ForgetWithout();
+  decision_.ForgetStreaks();
+  decision_.ForgetPeriods();
+  return out;
+}
+
+void CommissionedDetector::TellCarried(CoilVerdict* out) {
+  // Other coils that lost turns, now or before, move the flux of this one, too.
+  Diagnosis& d = out->diagnosis;
+  if (d.cls != FaultClass::kPartialShort || d.ripple_fraction < kLeastLoop || !out->more.empty() ||
+      !AllAreWhole())
+    return;
+  d.fraction = step_.Lost(d.coil, d.onset, d.ripple_fraction);
+  closed_[d.coil] = d.fraction < d.ripple_fraction ? 1 : 0;
+}
+
+bool CommissionedDetector::StandsBesideLoop(const CoilVerdict& out) const {
+  if (*std::max_element(closed_.v, closed_.v + kLanes) == 0) return true;
+  const Diagnosis& d = out.diagnosis;
+  if (d.cls == FaultClass::kPartialShort)
+    return closed_[d.coil] == 0 && ratios_.Sudden(d.coil) && out.turns == 0;
+  return d.cls != FaultClass::kCurrentSensor && out.turns == 0;
+}
+
 void CommissionedDetector::Skip() {
+  step_.Clear();
   ratios_.Skip(true);
   range_.Forget();
   currents_.ForgetWithout();

@@ -5,9 +5,11 @@
 /// Statistic of a coil: the largest |c| over its band, of windows of 1, 3, 10, 40 and 160 switching
 /// periods [-]; 1: the edge of what is healthy. Its rules: docs/guide/commissioned_detector.md.
 #include "fdd/commissioned/coil_probe.h"
+#include "fdd/commissioned/current_swing.h"
 #include "fdd/commissioned/drift_tracker.h"
 #include "fdd/commissioned/fault_decision.h"
 #include "fdd/detectors/coil_detector.h"
+#include "fdd/examination/flux_step.h"
 
 namespace ambrig {
 
@@ -55,6 +57,13 @@ class CommissionedDetector : public CoilDetector {
   /// A period of which nothing can be concluded.
   void Skip();
   void Probe();
+  /// A coil whose current swings as no healthy one's can, or a period that such a current spoils.
+  std::optional<CoilVerdict> Swings(const MeasuredPeriod& in);
+  /// Of lost turns, how many the currents that carry the shaft miss.
+  void TellCarried(CoilVerdict* out);
+  /// Whether a conclusion stands beside a coil whose shorted turns close through a resistance. What
+  /// such a loop carries is in no circuit here: it moves the c of its coil and of others slowly.
+  bool StandsBesideLoop(const CoilVerdict& out) const;
   CoilVerdict Judge(const CoilEvidence& seen);
   CoilEvidence Evidence(const MeasuredPeriod& in) const;
   double share(int coil) const { return turns_.share[coil]; }
@@ -75,7 +84,10 @@ class CommissionedDetector : public CoilDetector {
   DriftTracker drift_;
   CoilProbe probe_;
   JumpWatch jumps_;
+  CurrentSwing swing_;
+  FluxStep step_;
   FaultDecision decision_;
+  Lane closed_;          // 1: its shorted turns close through a resistance
   bool looped_ = false;  // shorted turns of some coil may carry a current of their own
   int paused_ = 8;
   long long count_ = 0;

@@ -1,5 +1,7 @@
 #include "fdd/commissioned/commissioned_run.h"
 
+#include <algorithm>
+
 #include "fdd/learning/commissioning_file.h"
 
 namespace ambrig {
@@ -28,10 +30,13 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   }
   alarm.coil = d.coil;
   if (seen.turns > 0 && taken_back_[d.coil] < kMostTakenBack) {
-    alarm.restored = seen.turns;
     ++taken_back_[d.coil];
-    share_[d.coil] = seen.turns;
-    watch_.Restore(d.coil, seen.turns);
+    Regain(d.coil, seen.turns, &alarm);
+    return alarm;
+  }
+  // A share of turns that is more than was believed is no loss, whoever concludes it.
+  if (d.cls == FaultClass::kPartialShort && d.fraction < 0) {
+    Regain(d.coil, std::min(1.0, share_[d.coil] * (1 - d.fraction)), &alarm);
     return alarm;
   }
   alarm.raised = true;
@@ -42,8 +47,15 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   return alarm;
 }
 
+void CommissionedRun::Regain(int coil, double turns, DetectorAlarm* alarm) {
+  alarm->restored = turns;
+  share_[coil] = turns;
+  watch_.Restore(coil, turns);
+}
+
 void CommissionedRun::Lose(const Diagnosis& d) {
-  share_[d.coil] = d.cls == FaultClass::kPartialShort ? share_[d.coil] * (1 - d.fraction) : 0;
+  const double lost = d.ripple_fraction > 0 ? d.ripple_fraction : d.fraction;
+  share_[d.coil] = d.cls == FaultClass::kPartialShort ? share_[d.coil] * (1 - lost) : 0;
   given_up_[d.coil] = d.excess;
   watch_.SetTurns(d.coil, share_[d.coil]);
 }

@@ -19,6 +19,8 @@ class CommissionedRun : public RunDetector {
 
  private:
   void Lose(const Diagnosis& d);
+  /// A coil has more turns than it was taken to have.
+  void Regain(int coil, double turns, DetectorAlarm* alarm);
   /// Whether the supervisor did not act on such a conclusion a short time ago.
   bool WasRefused(const Diagnosis& d) const;
 

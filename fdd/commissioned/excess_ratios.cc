@@ -20,6 +20,9 @@ constexpr double kLeastBelow = 0.08;
 // its c negative
 constexpr double kLeastBelowOnOneCore = 0.15;
 
+constexpr long long kStart = 40;     // periods: what is wrong then has no instant
+constexpr double kCalmBefore = 0.5;  // of what is gross: c before an instant
+
 struct PeriodLimits {
   double gross;        // of |c|
   Lane above;          // of c > 0
@@ -87,9 +90,11 @@ ExcessRatios::ExcessRatios(const LinkageModel& nominal, const CommissionedBearin
 void ExcessRatios::Update(const SlopeExcess& excess, const Conditions& in) {
   const auto place = static_cast<std::size_t>(in.count % static_cast<long long>(recent_.size()));
   const PeriodLimits limits{ExcessLimits::kGross, in.gross_above, in.only_gross};
-  const bool gross = (whole_lanes ? JudgePeriodWhole : JudgePeriodInHalves)(
+  bool gross = (whole_lanes ? JudgePeriodWhole : JudgePeriodInHalves)(
       excess, limits,
       {&recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_, &apart_});
+  FindSudden(in.count);
+  if (relies_ && in.left && CountSudden()) gross = true;
   // What a model does not express keeps flux out in many coils: those are not the suspects.
   if (!relies_ && gross && GrossCoils() >= ExcessLimits::kCoilsAtOnce)
     for (int j = 0; j < coils_; ++j)
@@ -98,6 +103,8 @@ void ExcessRatios::Update(const SlopeExcess& excess, const Conditions& in) {
   calm_ = !gross && windows_.Calm(in.bands.of_windows(), kLevelWindow, pattern_limit_);
   if (!calm_) CompareWindows(in.bands);
   if (!relies_) FindJumps();
+  last_now_[1] = last_now_[0];
+  last_now_[0] = now_;
 }
 
 void ExcessRatios::CompareWindows(const ExcessBands& bands) {
@@ -126,8 +133,27 @@ void ExcessRatios::FindJumps() {
              std::min(last_now_[0][j], last_now_[1][j]) < ExcessLimits::kGross)
       jumped_[j] = 1;
   }
-  last_now_[1] = last_now_[0];
-  last_now_[0] = now_;
+}
+
+void ExcessRatios::FindSudden(long long count) {
+  for (int j = 0; j < kLanes; ++j) {
+    if (now_[j] < ExcessLimits::kGross)
+      sudden_[j] = 0;
+    else if (count > kStart &&
+             std::min(last_now_[0][j], last_now_[1][j]) < kCalmBefore * ExcessLimits::kGross)
+      sudden_[j] = 1;
+  }
+}
+
+bool ExcessRatios::CountSudden() {
+  bool any = false;
+  for (int j = 0; j < coils_; ++j) {
+    if (sudden_[j] == 0 || now_[j] < ExcessLimits::kGross || ratio_[j] > 0) continue;
+    ratio_[j] = now_[j] / kGrossBand;
+    level_[j] = now_[j];
+    any = true;
+  }
+  return any;
 }
 
 double ExcessRatios::Recent(int coil) const {

@@ -22,6 +22,7 @@ class ExcessRatios {
     const ExcessBands& bands;
     const Lane& gross_above;  // c > 0 that is gross, of every coil [-]
     bool only_gross;          // no less than gross values count in this period
+    bool left;                // for no other reason than that a flux is beyond its range
     long long count;          // of periods so far
   };
   void Update(const SlopeExcess& excess, const Conditions& in);
@@ -52,6 +53,9 @@ class ExcessRatios {
   int GrossCoils() const;  // with c > 0.5 in this period
   /// Whether c came from below 0.5 to above 2 within two periods and has been gross since.
   bool Jumped(int coil) const { return jumped_[coil] > 0; }
+  /// Whether c came from below 0.25 to above 0.5 within two periods, not at the start of the run,
+  /// and has been gross since: turns are lost at once.
+  bool Sudden(int coil) const { return sudden_[coil] > 0; }
   /// The model's own errors show: several coils at once, or a pattern over the bearing.
   bool Disturbed() const;
 
@@ -61,6 +65,10 @@ class ExcessRatios {
     Lane top, bottom;
   };
   void FindJumps();
+  void FindSudden(long long count);
+  /// Coils whose c became gross at once count where only those beyond the limit of a flux outside
+  /// its range would: what iron does there comes slowly. Whether there is any.
+  bool CountSudden();
 
   int coils_;
   bool relies_;
@@ -72,7 +80,7 @@ class ExcessRatios {
   bool calm_ = false;
   std::array<Sums, ExcessLimits::kInARow> recent_;
   Lane last_now_[2];  // c of the two periods before
-  Lane jumped_;
+  Lane jumped_, sudden_;
 };
 
 }  // namespace ambrig

@@ -10,6 +10,8 @@ namespace {
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
 constexpr double kLeastLost = 0.1;        // of the turns, for coils that fail at once
 constexpr long long kOnOneCore = 2500;    // periods after turns were lost on one core: more of them
+constexpr double kAlikeExcess = 0.5;      // of the largest c, of a model that is not the machine's
+constexpr long long kMismatched = 2500;   // periods after which the turns are judged again
 constexpr int kMostWaited = 10;           // periods, for another coil
 constexpr double kAboutToStandOut = 0.5;  // of its band
 constexpr int kWindowOfJoint = 1;  // of three periods: what healthy running leaves in as many
@@ -21,7 +23,7 @@ double FractionOf(double excess) { return 1 - 1 / std::sqrt(1 + excess); }
 double LeastLost(const CoilEvidence& seen, int coil, double per_excess) {
   // No phase that starts at zero current was learnt from either.
   const double c = seen.sums.gross[coil] > 0 ? ExcessLimits::kGrossAbove
-                   : seen.range.left()       ? seen.range.gross_above()[coil]
+                   : seen.range.left()       ? seen.GrossAbove(coil)
                                              : 0;
   const double gross = c > 0 ? FractionOf(c) : kLeastLost;
   const Lane& healthy = seen.learnt.largest[kWindowOfJoint];
@@ -40,6 +42,7 @@ CoilVerdict FaultDecision::Judge(const CoilEvidence& seen) {
   if (!out.alarm) waited_ = 0;
   CountStreaks(seen);
   if (!out.alarm || !InARow(coil)) return out;
+  if (seen.count < mismatch_until_) return InMismatch(seen, out);
   out.excess = seen.ratios.Recent(coil);
   if (!JudgedTogether(seen, &out)) {
     out.turns = MoreTurns(seen, coil, out.excess);
@@ -54,6 +57,10 @@ CoilVerdict FaultDecision::Judge(const CoilEvidence& seen) {
       }
       out.more = Companions(seen, coil, out.excess);
     }
+  }
+  if (out.decided && out.turns == 0 && IsMismatch(seen, out)) {
+    mismatch_until_ = seen.count + kMismatched;
+    return InMismatch(seen, out);
   }
   if (out.decided && out.turns == 0 && ShortedAgain(seen, out.diagnosis)) {
     out.decided = false;
@@ -132,6 +139,37 @@ bool FaultDecision::JudgedTogether(const CoilEvidence& seen, CoilVerdict* out) c
   out->decided = failed.size() > 1 || seen.Suffices(failed[0].coil, out->excess);
   out->Blame(failed);
   return true;
+}
+
+bool FaultDecision::IsMismatch(const CoilEvidence& seen, const CoilVerdict& out) const {
+  int shorted = 0;
+  const auto at_once = [&](const Diagnosis& d) {
+    shorted += d.cls == FaultClass::kPartialShort;
+    return d.cls == FaultClass::kPartialShort && seen.ratios.Sudden(d.coil);
+  };
+  if (at_once(out.diagnosis) || std::ranges::any_of(out.more, at_once) || shorted == 0)
+    return false;
+  if (shorted > 1 && std::abs(out.excess) > ExcessLimits::kGross) return true;
+  const Lane &n = seen.nominal().n, &c = seen.ratios.now();
+  // A coil that failed stands out from what it makes of its neighbours.
+  const double alike =
+      std::max(ExcessLimits::kGross, kAlikeExcess * *std::max_element(c.v, c.v + seen.coils()));
+  int coils = 0;
+  bool positive = false, negative = false;
+  for (int j = 0; j < seen.coils(); ++j) {
+    if (seen.share(j) == 0 || c[j] < alike) continue;
+    ++coils;
+    (n[j] > 0 ? positive : negative) = true;
+  }
+  return coils >= ExcessLimits::kCoilsAtOnce && positive && negative;
+}
+
+CoilVerdict FaultDecision::InMismatch(const CoilEvidence& seen, CoilVerdict out) const {
+  CoilVerdict left = WithoutCurrent(seen);
+  if (left.decided) return left;
+  out.decided = false;
+  out.doubtful = true;
+  return out;
 }
 
 bool FaultDecision::ShortedAgain(const CoilEvidence& seen, const Diagnosis& d) const {

@@ -30,6 +30,12 @@ class FaultDecision {
   /// turns that explain all c. False: no such explanation.
   bool JudgedTogether(const CoilEvidence& seen, CoilVerdict* out) const;
   std::vector<Diagnosis> CoilsWithoutCurrent(const CoilEvidence& seen) const;
+  /// Whether c is gross in three coils or more of both polarities, or in two that are to be blamed
+  /// for lost turns, and none of these became so at an instant: windings do not fail so, the model
+  /// is not that of the machine.
+  bool IsMismatch(const CoilEvidence& seen, const CoilVerdict& out) const;
+  /// Nothing but coils without current is concluded of a machine that the model is not of.
+  CoilVerdict InMismatch(const CoilEvidence& seen, CoilVerdict out) const;
   /// Whether turns were lost on the same thrust core a short time ago. Two windings of
   /// one flux that are named in turns say that the model errs.
   bool ShortedAgain(const CoilEvidence& seen, const Diagnosis& d) const;
@@ -42,8 +48,9 @@ class FaultDecision {
   bool InARow(int coil) const { return streak_[coil] >= static_cast<int>(ExcessLimits::kInARow); }
 
   JointTurns joint_;
-  Lane streak_, onset_;  // periods in a row that a coil was suspect; since [s]
-  int waited_ = 0;       // periods for a companion, since nothing stood out
+  Lane streak_, onset_;           // periods in a row that a coil was suspect; since [s]
+  long long mismatch_until_ = 0;  // period
+  int waited_ = 0;                // periods for a companion, since nothing stood out
 };
 
 }  // namespace ambrig

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fdd/circuit/slope_excess.h"
+#include "rig/parameters/machine_identity.h"
 
 namespace ambrig {
 
@@ -58,6 +59,7 @@ inline double HealthyBand(const CommissionedBearing& b, int w, int coil, double 
 }
 
 struct CommissionedModel {
+  MachineIdentity machine;  // that it was learnt on; not known of files of earlier versions
   std::vector<CommissionedBearing> bearings;
 
   const CommissionedBearing* Find(const std::string& name) const {

@@ -87,6 +87,46 @@ CommissionedBearing ReadBearing(const TomlTable& t, const std::string& name) {
   return b;
 }
 
+/// "bearings.A.gap 1a2b3c4d"; the bearing of a part is told by its reader.
+std::vector<MachineIdentity::Part> ReadParts(const TomlTable& t, const char* key) {
+  std::vector<MachineIdentity::Part> parts;
+  for (const std::string& text : t.Strings(key)) {
+    const auto space = text.rfind(' ');
+    if (space == std::string::npos || space == 0)
+      t.Fail(key, fmt::format("has \"{}\", allowed: a name, a space and a hash", text));
+    parts.push_back({text.substr(0, space), text.substr(space + 1), ""});
+  }
+  return parts;
+}
+
+/// Files of earlier versions do not have it.
+MachineIdentity ReadMachine(const TomlTable& root) {
+  MachineIdentity machine;
+  const auto t = root.Table("machine");
+  if (!t) return machine;
+  machine.known = true;
+  machine.unit = In(*t, "unit", 1, 1e9);
+  machine.fitted = ReadParts(*t, "fitted");
+  machine.effects = ReadParts(*t, "effects");
+  t->RejectUnknownKeys();
+  return machine;
+}
+
+std::string PartsText(const std::vector<MachineIdentity::Part>& parts) {
+  std::string text;
+  for (const MachineIdentity::Part& p : parts)
+    text += fmt::format("{}\"{} {}\"", text.empty() ? "" : ", ", p.name, p.hash);
+  return "[" + text + "]";
+}
+
+std::string MachineText(const MachineIdentity& m) {
+  if (!m.known) return "";
+  return fmt::format(
+      "\n# beside the nominal values: with others the file is of another machine and not used\n"
+      "[machine]\nunit = {}\nfitted = {}\neffects = {}\n",
+      m.unit, PartsText(m.fitted), PartsText(m.effects));
+}
+
 int CoilsIn(const CommissionedBearing& b) {
   int n = 0;
   while (n < kLanes && b.coils.gain[n] > 0) ++n;
@@ -141,6 +181,7 @@ std::string ContentHashOf(const LinkageModel& m, const AmplifierParameters& ampl
 std::string CommissioningText(const CommissionedModel& model) {
   std::string text =
       "# Written by ambrig commission: what the detector learnt of the healthy machine.\n";
+  text += MachineText(model.machine);
   for (const CommissionedBearing& b : model.bearings)
     if (b.learnt) text += BearingText(b);
   return text;
@@ -153,6 +194,7 @@ CommissionedModel ReadCommissioning(const std::string& file) {
     root.Fail("bearings",
               "is missing, allowed: tables [bearings.NAME], as ambrig commission writes");
   CommissionedModel model;
+  model.machine = ReadMachine(root);
   for (const std::string& name : bearings->Keys())
     model.bearings.push_back(ReadBearing(*bearings->Table(name), name));
   root.RejectUnknownKeys();

@@ -7,6 +7,7 @@
 #include "fdd/learning/commissioning_file.h"
 #include "fdd/learning/commissioning_fit.h"
 #include "simulation/commissioning/excess_scatter.h"
+#include "simulation/commissioning/other_machine.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
@@ -56,6 +57,7 @@ CommissioningResult Commission(const RigParameters& rig, const CommissioningOpti
                       "of {} s ({}), allowed: smaller signals (--circle, --pulse, "
                       "--chirp) or a lower --speed",
                       rig.file, e.t, scenario.duration, e.target));
+  out.model.machine = MachineOfFile(rig.file);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     if (options.stop && options.stop->load()) throw Interrupted();
     const LinkageModel model = LinkageModelOf(nominal->bearings[k]);

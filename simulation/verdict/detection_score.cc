@@ -12,14 +12,17 @@ FaultScore ScoreOf(const FaultSpec& fault, const std::vector<RunEvent>& events, 
   FaultScore score;
   score.judged = fault.time < lost;
   if (!score.judged) return score;
+  const std::string bearing = fault.target.substr(0, fault.target.find('.'));
   for (const RunEvent& e : events) {
     if (e.t < fault.time) continue;
     const double after = e.t - fault.time;
-    if (e.kind == "redistributed" && !score.redistributed) score.redistributed = after;
+    if (e.kind == "redistributed" && e.target == bearing && !score.redistributed)
+      score.redistributed = after;
     if (e.target != fault.target) continue;
     if (e.kind == "detected" && !score.detected) score.detected = after;
     if (e.kind == "classified") score.last_class = e.fault_class;
   }
+  score.of_a_coil = FaultByKind(fault.kind).observer == FaultObserver::kCoilDetector;
   score.right_class = score.last_class == FaultByKind(fault.kind).seen_as;
   return score;
 }
@@ -52,6 +55,21 @@ std::size_t DetectionScore::detected() const {
       std::ranges::count_if(faults, [](const FaultScore& f) { return f.detected.has_value(); }));
 }
 
+bool DetectionScore::a_coil_was_missed() const {
+  return std::ranges::any_of(
+      faults, [](const FaultScore& f) { return f.judged && f.of_a_coil && !f.detected; });
+}
+
+std::size_t DetectionScore::judged_coils() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(faults, [](const FaultScore& f) { return f.judged && f.of_a_coil; }));
+}
+
+std::size_t DetectionScore::redistributed() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      faults, [](const FaultScore& f) { return f.of_a_coil && f.redistributed.has_value(); }));
+}
+
 std::size_t DetectionScore::right_class() const {
   return static_cast<std::size_t>(std::ranges::count_if(faults, &FaultScore::right_class));
 }
@@ -76,8 +94,9 @@ DetectionScore ScoreDetection(const std::vector<FaultSpec>& faults,
 
 void ScoreDetection(const Scenario& scenario, RunResult& result) {
   const DetectionScore score = ScoreDetection(scenario.faults, result.events);
-  result.metrics.detection_delay = score.longest_detection();
-  result.metrics.redistribution_delay = score.longest_redistribution();
+  result.metrics.detection_delay = score.a_coil_was_missed() ? -1 : score.longest_detection();
+  result.metrics.redistribution_delay =
+      score.redistributed() == score.judged_coils() ? score.longest_redistribution() : -1;
   result.metrics.false_alarms = static_cast<double>(score.false_alarms);
 }
 

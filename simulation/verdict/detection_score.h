@@ -12,9 +12,10 @@
 namespace ambrig {
 
 struct FaultScore {
+  bool of_a_coil = true;                // one that the coils' detector is to find
   bool judged = true;                   // it came before the rotor was lost
   std::optional<double> detected;       // first alarm of the fault's target [s after the fault]
-  std::optional<double> redistributed;  // first redistribution of any bearing [s after the fault]
+  std::optional<double> redistributed;  // first redistribution of its bearing [s after the fault]
   std::string last_class;               // of the target after the fault; empty: none
   bool right_class = false;  // the last one, as a class may be refined while more is seen
 };
@@ -25,8 +26,12 @@ struct DetectionScore {
 
   std::size_t judged() const;
   std::size_t detected() const;
+  /// Of those, faults of coils.
+  std::size_t judged_coils() const;
+  std::size_t redistributed() const;
   std::size_t right_class() const;
   /// Of those that are judged.
+  bool a_coil_was_missed() const;
   bool all_detected() const { return detected() == judged(); }
   /// The longest among the faults that were detected, or followed by a
   /// redistribution [s]; -1: none.
@@ -42,7 +47,8 @@ double LostAt(const std::vector<RunEvent>& events);
 DetectionScore ScoreDetection(const std::vector<FaultSpec>& faults,
                               const std::vector<RunEvent>& events);
 
-/// Puts delays and false alarms into the metrics of the run.
+/// Puts delays and false alarms into the metrics of the run; a delay only where every fault that is
+/// judged has one.
 void ScoreDetection(const Scenario& scenario, RunResult& result);
 
 }  // namespace ambrig

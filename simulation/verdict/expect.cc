@@ -58,6 +58,19 @@ ExpectResult Classified(const Scenario& s, const DetectionScore& score) {
   return {"classified", *s.expect.classified, WithUnjudged(got, score), met};
 }
 
+/// Every fault that is judged was followed by a redistribution of its own bearing; none, where that
+/// is wanted.
+ExpectResult Redistributed(const Scenario& s, const DetectionScore& score) {
+  const std::size_t got = score.redistributed();
+  ExpectResult r = Equal("redistributed", *s.expect.redistributed, got > 0);
+  if (got > 0 && got < score.judged_coils()) {
+    r.got = fmt::format("of {} of {} faults", got, score.judged_coils());
+    r.met = false;
+  }
+  r.got = WithUnjudged(r.got, score);
+  return r;
+}
+
 }  // namespace
 
 std::vector<ExpectResult> CheckExpectations(const Scenario& s, const RunResult& r) {
@@ -68,8 +81,7 @@ std::vector<ExpectResult> CheckExpectations(const Scenario& s, const RunResult& 
   if (e.classified) out.push_back(Classified(s, score));
   if (e.touchdown) out.push_back(Equal("touchdown", *e.touchdown, r.touchdown));
   if (e.drop) out.push_back(Equal("drop", *e.drop, r.drop));
-  if (e.redistributed)
-    out.push_back(Equal("redistributed", *e.redistributed, r.metrics.redistribution_delay >= 0));
+  if (e.redistributed) out.push_back(Redistributed(s, score));
   if (e.max_orbit) {
     double most = 0;
     for (const auto& [name, orbit] : r.metrics.max_orbit) most = std::max(most, orbit);

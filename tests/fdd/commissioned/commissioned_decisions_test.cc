@@ -237,8 +237,9 @@ TEST(CommissionedDecisions, AClosedLoopLooksLikeALargerShort) {
   ASSERT_FALSE(seen->found.empty());
   EXPECT_EQ(seen->Coils(), std::set<int>{5});
   EXPECT_EQ(seen->found[0].cls, FaultClass::kPartialShort);
-  EXPECT_GT(seen->found[0].fraction, 0.3);
-  EXPECT_LT(seen->found[0].fraction, 0.7);
+  EXPECT_GT(seen->found[0].ripple_fraction, 0.3);
+  EXPECT_LT(seen->found[0].ripple_fraction, 0.7);
+  EXPECT_LT(seen->found[0].fraction, 0.3);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ std::string Written(const std::string& text) {
 
 TEST(CommissioningFile, ComesBackAsItWasWritten) {
   const CommissionedBearing b = Learnt();
-  const std::string file = Written(CommissioningText({{b}}));
+  const std::string file = Written(CommissioningText({{}, {b}}));
   const CommissionedBearing c = ReadCommissionedBearing(
       file, "A", MakeLinkageModel(testing_bench::Reference()), testing_bench::Bridge());
   EXPECT_TRUE(c.usable());
@@ -63,8 +63,26 @@ TEST(CommissioningFile, ComesBackAsItWasWritten) {
   }
 }
 
+TEST(CommissioningFile, SaysOfWhichMachineItIs) {
+  CommissionedModel model{{}, {Learnt()}};
+  model.machine = {true,
+                   14,
+                   true,
+                   {{"bearings.A.gap", "0123abcd", "A"}},
+                   {{"eddy-currents at A", "89abcdef", "A"}}};
+  const MachineIdentity read = ReadCommissioning(Written(CommissioningText(model))).machine;
+  EXPECT_TRUE(read.known);
+  EXPECT_EQ(read.unit, 14);
+  ASSERT_EQ(read.fitted.size(), 1u);
+  EXPECT_EQ(read.fitted[0].name, "bearings.A.gap");
+  EXPECT_EQ(read.fitted[0].hash, "0123abcd");
+  ASSERT_EQ(read.effects.size(), 1u);
+  EXPECT_EQ(read.effects[0].name, "eddy-currents at A");
+  EXPECT_EQ(read.effects[0].hash, "89abcdef");
+}
+
 TEST(CommissioningFile, OfAnotherRigIsRefused) {
-  const std::string file = Written(CommissioningText({{Learnt()}}));
+  const std::string file = Written(CommissioningText({{}, {Learnt()}}));
   RadialStatorParameters other = testing_bench::Reference();
   other.turns += 1;
   try {
@@ -76,14 +94,14 @@ TEST(CommissioningFile, OfAnotherRigIsRefused) {
 }
 
 TEST(CommissioningFile, ABearingWithoutAnEntryIsNominal) {
-  const std::string file = Written(CommissioningText({{Learnt()}}));
+  const std::string file = Written(CommissioningText({{}, {Learnt()}}));
   EXPECT_FALSE(ReadCommissionedBearing(file, "B", MakeLinkageModel(testing_bench::Reference()),
                                        testing_bench::Bridge())
                    .learnt);
 }
 
 TEST(CommissioningFile, MistakesAreNamedWithTheirPlace) {
-  std::string text = CommissioningText({{Learnt()}});
+  std::string text = CommissioningText({{}, {Learnt()}});
   const auto at = text.find("gain = [");
   text.insert(at + 8, "7.0, ");
   try {
@@ -99,13 +117,13 @@ TEST(CommissioningFile, MistakesAreNamedWithTheirPlace) {
 TEST(CommissioningFile, WithoutRunOutIsRead) {
   CommissionedBearing b = Learnt();
   b.circuit.run_out = {};
-  const std::string text = CommissioningText({{b}});
+  const std::string text = CommissioningText({{}, {b}});
   EXPECT_EQ(text.find("run_out"), std::string::npos);
   EXPECT_TRUE(ReadCommissioning(Written(text)).bearings[0].circuit.run_out.none());
 }
 
 TEST(CommissioningFile, RunOutOfOneOrderIsRefused) {
-  std::string text = CommissioningText({{Learnt()}});
+  std::string text = CommissioningText({{}, {Learnt()}});
   const auto at = text.find("run_out_y = [") + 13;
   text.replace(at, text.find(']', at) - at, "1e-6, 2e-6");
   try {
