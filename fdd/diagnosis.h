@@ -48,7 +48,7 @@ struct Diagnosis {
   // of the turns as the slopes of the ripple see it, partial-short only: larger than `fraction`
   // where turns close through a resistance (fdd/examination/flux_step.h); 0: as `fraction`
   double ripple_fraction = 0;
-  double excess = 0;      // of its linkage (fdd/circuit/slope_excess.h), 0: not known [-]
+  double excess = 0;  // of its linkage (fdd/circuit/slope_excess.h), 0: not known [-]
 };
 
 }  // namespace ambrig

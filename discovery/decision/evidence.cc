@@ -14,11 +14,34 @@ namespace {
 
 constexpr double kOfUsual = 0.5;      // of the smallest usual size
 constexpr double kSeen = 3;           // sd from nothing
+constexpr double kSeenInDoubt = 2;    // the same by sd that the doubt of another law has widened
 constexpr double kSet = 0.95;         // probability of the set
 constexpr double kAboveFloor = 1.15;  // a channel's ratio that is worth a word
 constexpr std::size_t kPlaces = 8;
 // Name probability: half at a share of 0.45; an explanation down to the floor is a name.
 constexpr double kHalfShare = 0.45, kSlope = 12, kAtFloor = 1.15;
+
+/// Whether a size of the effect differs from nothing by so many of its sd.
+bool DiffersFromNothing(const EffectInstance& effect, double sds) {
+  const EffectDescription* d = FindEffect(effect.name);
+  bool told = false, untold = false;  // sizes whose sd the records tell, and others
+  for (std::size_t k = 0; k < effect.table.size(); ++k) {
+    const EffectParameter& p = effect.table[k];
+    if (!p.has_null || (d && !d->Switches(p))) continue;
+    const double sd = k < effect.sd.size() ? effect.sd[k] : 0, value = effect.values[k];
+    if (!std::isfinite(value)) continue;  // at a null of infinity
+    // a null of infinity: 1/value is seen against its own sd
+    const double distance =
+        std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
+    if (distance == 0) continue;
+    // A size whose slope the records do not tell may be one that has none (whole periods of delay),
+    // or one too small to show (a dead duty below every duty): that is none of the usual size,
+    // beside sizes that are told.
+    if (sd > 0 ? distance >= sds * sd : distance >= p.typical_lo) return true;
+    (sd > 0 ? told : untold) = true;
+  }
+  return untold && !told;
+}
 
 /// The effect with the sd that its sizes have while the shape of its law is held.
 EffectInstance WithSdOfSizes(const FitResult& fit, std::size_t effect, bool under_doubt) {
@@ -106,33 +129,14 @@ std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double na
   return set;
 }
 
-bool HasSize(const EffectInstance& effect) {
-  const EffectDescription* d = FindEffect(effect.name);
-  bool told = false, untold = false;  // sizes whose sd the records tell, and others
-  for (std::size_t k = 0; k < effect.table.size(); ++k) {
-    const EffectParameter& p = effect.table[k];
-    if (!p.has_null || (d && !d->Switches(p))) continue;
-    const double sd = k < effect.sd.size() ? effect.sd[k] : 0, value = effect.values[k];
-    if (!std::isfinite(value)) continue;  // at a null of infinity
-    // a null of infinity: 1/value is seen against its own sd
-    const double distance =
-        std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
-    if (distance == 0) continue;
-    // A size whose slope the records do not tell may be one that has none (whole periods of delay),
-    // or one too small to show (a dead duty below every duty): that is none of the usual size,
-    // beside sizes that are told.
-    if (sd > 0 ? distance >= kSeen * sd : distance >= p.typical_lo) return true;
-    (sd > 0 ? told : untold) = true;
-  }
-  return untold && !told;
-}
+bool HasSize(const EffectInstance& effect) { return DiffersFromNothing(effect, kSeen); }
 
 bool HasSize(const FitResult& fit, std::size_t effect) {
   return HasSize(WithSdOfSizes(fit, effect, false));
 }
 
 bool HasSizeUnderDoubt(const FitResult& fit, std::size_t effect) {
-  return HasSize(WithSdOfSizes(fit, effect, true));
+  return DiffersFromNothing(WithSdOfSizes(fit, effect, true), kSeenInDoubt);
 }
 
 bool HasImpossibleSign(const EffectInstance& effect) {

@@ -64,7 +64,7 @@ bool HasSize(const EffectInstance& effect);
 /// known but for a time constant it goes with (a slow rise tells their quotient) is there all the
 /// same.
 bool HasSize(const FitResult& fit, std::size_t effect);
-/// The same by the sd under doubt of the last fit (last_fit.h).
+/// Whether it differs by two of the sd under doubt of the last fit (last_fit.h).
 bool HasSizeUnderDoubt(const FitResult& fit, std::size_t effect);
 
 /// Whether the size came out with a sign that its physics never has (a magnetic pull that holds the

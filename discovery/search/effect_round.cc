@@ -149,7 +149,8 @@ class Ranker {
     const LinearJudge judge(s_.model, now_, s_.bank, s_.effective_sample_size);
     std::vector<std::pair<double, const Candidate*>> local;
     for (const Candidate& c : out_.screened) {
-      if (c.narrow || c.from_nominal || c.score > here_ - kLeastOfScore || Ranked(c.effect)) continue;
+      if (c.narrow || c.from_nominal || c.score > here_ - kLeastOfScore || Ranked(c.effect))
+        continue;
       const LocalShare share = judge.ShareWhereItActs(s_.bank.entries()[c.entry]);
       if (PromisesItsChannels(share)) local.emplace_back(share.explained, &c);
     }

@@ -169,7 +169,7 @@ std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in
   if (coil >= 0) {
     out.alarm = out.decided = true;
     const double end = in.t + sampling_.samples * sampling_.step;
-    out.diagnosis = {coil, FaultClass::kPartialShort, swing_.Lost(coil, in), end, in.t, 1};
+    out.diagnosis = {coil, FaultClass::kPartialShort, swing_.Lost(coil), end, in.t, 1};
     out.diagnosis.ripple_fraction = out.diagnosis.fraction;
     swing_.Forget();
   }

@@ -19,6 +19,7 @@ constexpr unsigned kWindow = 0xffff;       // sixteen periods: they need not fol
 constexpr unsigned kRecent = 0x3f;         // six periods
 constexpr int kNamed = 6, kUnsettled = 4;  // of the sixteen, of the six: what a circuit explains
 // is told by it before
+constexpr double kUsualPeriods = 64;  // over which the steps of a calm coil are averaged
 constexpr double kLeastLostBySwing = 0.5, kMostLostBySwing = 0.95;  // of the turns
 
 AMBRIG_WIDE void LargestSteps(const Lane* adc, int samples, Lane* last, Lane* step, Lane* reading) {
@@ -54,6 +55,8 @@ int CurrentSwing::Period(const MeasuredPeriod& in, const Lane& share) {
     const bool swings = largest_[j] > (beyond ? kOverLeakage : kFarOver) * limit + noise_;
     recent_[j] = ((recent_[j] << 1) | (swings ? 1U : 0U)) & kWindow;
     if (recent_[j] == 0) over_[j] = 0;
+    if (recent_[j] == 0)
+      usual_[j] += (largest_[j] - usual_[j]) / std::min(++calm_[j], kUsualPeriods);
     if (swings) over_[j] = std::max(over_[j], largest_[j] / limit);
     const int often = std::popcount(recent_[j]);
     unsettled_ = unsettled_ || std::popcount(recent_[j] & kRecent) >= kUnsettled;
@@ -62,12 +65,8 @@ int CurrentSwing::Period(const MeasuredPeriod& in, const Lane& share) {
   return named;
 }
 
-double CurrentSwing::Lost(int coil, const MeasuredPeriod& in) const {
-  const Lane P = nominal_.Permeance(in.x1, in.y1);
-  double total = 0;
-  for (const double p : P.v) total += p;
-  const double whole = nominal_.SelfInductance(coil, P, total);
-  const double left = in.bus * sampling_.step / largest_[coil] / whole;
+double CurrentSwing::Lost(int coil) const {
+  const double left = usual_[coil] > 0 ? usual_[coil] / largest_[coil] : 0;
   return std::clamp(1 - std::sqrt(left), kLeastLostBySwing, kMostLostBySwing);
 }
 

@@ -22,18 +22,20 @@ class CurrentSwing {
   /// Whether some current has swung in four of the last six periods: nothing is to be concluded
   /// of the others.
   bool unsettled() const { return unsettled_; }
-  /// Share of its turns that a coil with such steps has lost, from its inductance [-].
-  double Lost(int coil, const MeasuredPeriod& in) const;
+  /// Share of its turns that a coil with such steps has lost [-]: its steps over those of its calm
+  /// periods are its inductances', as the square of the turns. 0.5 to 0.95.
+  double Lost(int coil) const;
   void Forget();
 
  private:
   LinkageModel nominal_;
   SamplingSettings sampling_;
-  double noise_;                  // of a step [A]
-  Lane last_;                     // sample [A]
-  Lane reading_, largest_;        // of the period: reading, step [A]
-  unsigned recent_[kLanes] = {};  // a bit per period, the last one lowest
-  double over_[kLanes] = {};      // largest step over the limit, in those periods
+  double noise_;                                   // of a step [A]
+  Lane last_;                                      // sample [A]
+  Lane reading_, largest_;                         // of the period: reading, step [A]
+  unsigned recent_[kLanes] = {};                   // a bit per period, the last one lowest
+  double over_[kLanes] = {};                       // largest step over the limit, in those periods
+  double usual_[kLanes] = {}, calm_[kLanes] = {};  // mean step while calm [A], periods of it
   bool started_ = false, unsettled_ = false;
 };
 

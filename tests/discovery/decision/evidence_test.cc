@@ -91,7 +91,7 @@ TEST(HasSize, ASizeThatGoesWithATimeConstantIsJudgedWithThatHeld) {
   fit.size_sd = {3, 0, 0};
   EXPECT_FALSE(HasSize(FittedEffect(fit, 0)));
   EXPECT_TRUE(HasSize(fit, 0));
-  fit.doubt = {30, 1, 1};
+  fit.doubt = {40, 1, 1};
   EXPECT_TRUE(HasSize(fit, 0));
   EXPECT_FALSE(HasSizeUnderDoubt(fit, 0));
   fit.size_sd = {150, 0, 0};
