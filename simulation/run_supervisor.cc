@@ -6,9 +6,8 @@
 
 namespace ambrig {
 
-std::unique_ptr<FaultSupervisor> SupervisorOf(const RigParameters& rig, const Scenario& scenario,
-                                              bool traces) {
-  if (!scenario.fault_tolerant || !WhyUnwatched(rig, scenario).empty()) return nullptr;
+RunSupervisor SupervisorOf(const RigParameters& rig, const Scenario& scenario, bool traces) {
+  if (!scenario.fault_tolerant || !WhyUnwatched(rig, scenario).empty()) return {};
   FaultSupervisorOptions watch;
   watch.slopes = traces;
   watch.redistribution = scenario.redistribution;
@@ -18,8 +17,9 @@ std::unique_ptr<FaultSupervisor> SupervisorOf(const RigParameters& rig, const Sc
       scenario.stiffness_compensation && scenario.retuned_controller.empty();
   watch.cache_dir = RedistributionCacheDirectory();
   RigParameters watched = rig;
-  if (!OtherMachineNote(rig).empty()) watched.detection.commissioning = "none";
-  return std::make_unique<FaultSupervisor>(NominalRig(watched), watch);
+  std::string note = OtherMachineNote(rig);
+  if (!note.empty()) watched.detection.commissioning = "none";
+  return {std::make_unique<FaultSupervisor>(NominalRig(watched), watch), std::move(note)};
 }
 
 }  // namespace ambrig

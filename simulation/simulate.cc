@@ -6,7 +6,6 @@
 #include <chrono>
 
 #include "scenarios/expect_file.h"
-#include "simulation/commissioning/other_machine.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"
 #include "simulation/run_supervisor.h"
@@ -78,7 +77,7 @@ void NoteUncovered(const Scenario& scenario, RunResult& result) {
 }
 
 RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
-                       const SimulateOptions& options) {
+                       const SimulateOptions& options, FaultSupervisor* supervisor) {
   EngineOptions engine;
   engine.record_rate = options.record_rate;
   engine.record = options.record;
@@ -86,8 +85,7 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
   engine.stepper = options.stepper;
   engine.progress = options.progress;
   engine.stop = options.stop;
-  const auto supervisor = SupervisorOf(rig, scenario, options.for_report);
-  engine.supervisor = supervisor.get();
+  engine.supervisor = supervisor;
   return SwitchingEngine(rig, scenario, engine).Run();
 }
 
@@ -129,9 +127,11 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
   CheckWatched(scenario, why_unwatched);
   const auto begin = std::chrono::steady_clock::now();
   RunResult result;
+  RunSupervisor watch;
   switch (options.fidelity) {
     case Fidelity::kSwitching:
-      result = RunSwitching(rig, scenario, options);
+      watch = SupervisorOf(rig, scenario, options.for_report);
+      result = RunSwitching(rig, scenario, options, watch.supervisor.get());
       break;
     case Fidelity::kReference:
       result = RunContinuous(rig, scenario, options, ReferenceOptions{}, RunReference);
@@ -145,9 +145,7 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
   ScoreDetection(scenario, result);
   NoteStuckSwitches(rig, scenario, result);
   NoteUnwatched(scenario, why_unwatched, result);
-  if (const std::string note = OtherMachineNote(rig);
-      !note.empty() && why_unwatched.empty() && scenario.fault_tolerant)
-    result.notes.push_back(note);
+  if (!watch.other_machine.empty()) result.notes.push_back(watch.other_machine);
   NoteUncovered(scenario, result);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -26,31 +26,32 @@ struct StatorReach {
   double worst = 0;  // [N] from the load in the worst direction
 };
 
-bool Gives(const PoleNetwork& network, const CurrentMap& map, const Eigen::VectorXd& left,
-           const Eigen::Vector2d& force, int axes) {
+/// The force of the map's set-points for `force`, by the network.
+Eigen::VectorXd TrueForce(const StatorProblem& p, const CurrentMap& map,
+                          const Eigen::Vector2d& force) {
   const Eigen::VectorXd set =
-      map.SetPoints(force.x(), force.y()).head(network.coils()).cwiseProduct(left);
-  const Eigen::Vector3d f = network.Force(Eigen::Vector3d::Zero(), set);
-  return (f.head(axes) - force.head(axes)).norm() <=
+      map.SetPoints(force.x(), force.y()).head(p.network->coils()).cwiseProduct(p.turns_left);
+  return p.network->Force(Eigen::Vector3d::Zero(), set).head(p.axes);
+}
+
+/// Whether a true force is the wanted one.
+bool Gives(const Eigen::VectorXd& truly, const Eigen::Vector2d& force) {
+  return (truly - force.head(truly.size())).norm() <=
          kTrueForce * std::max(force.norm(), kSmallForce);
 }
 
 /// Whether `added` to the load is truly added: within a part of its own size, which may be small
 /// beside the load.
-bool Adds(const PoleNetwork& network, const CurrentMap& map, const Eigen::VectorXd& left,
-          const Eigen::Vector2d& load, const Eigen::Vector2d& added, int axes) {
-  const auto force = [&](const Eigen::Vector2d& f) {
-    const Eigen::VectorXd set =
-        map.SetPoints(f.x(), f.y()).head(network.coils()).cwiseProduct(left);
-    return Eigen::VectorXd(network.Force(Eigen::Vector3d::Zero(), set).head(axes));
-  };
-  return (force(load + added) - force(load) - added.head(axes)).norm() <= kTrueAdded * added.norm();
+bool Adds(const Eigen::VectorXd& truly, const Eigen::VectorXd& of_load,
+          const Eigen::Vector2d& added) {
+  return (truly - of_load - added.head(truly.size())).norm() <= kTrueAdded * added.norm();
 }
 
 StatorReach ReachOf(const StatorProblem& p, const CurrentMap& map, const Eigen::Vector2d& load,
                     double most) {
   StatorReach out;
-  out.carries = Gives(*p.network, map, p.turns_left, load, p.axes);
+  const Eigen::VectorXd of_load = TrueForce(p, map, load);
+  out.carries = Gives(of_load, load);
   if (!out.carries) return out;
   out.worst = kInfinity;
   const int directions = p.axes > 1 ? kDirectionsOfReach : 2;
@@ -60,10 +61,9 @@ StatorReach ReachOf(const StatorProblem& p, const CurrentMap& map, const Eigen::
     double r = 0;
     while (true) {
       const Eigen::Vector2d next = load + (r + kForceStep) * way;
-      if (next.cwiseAbs().maxCoeff() > most ||
-          !Gives(*p.network, map, p.turns_left, next, p.axes) ||
-          !Adds(*p.network, map, p.turns_left, load, next - load, p.axes))
-        break;
+      if (next.cwiseAbs().maxCoeff() > most) break;
+      const Eigen::VectorXd truly = TrueForce(p, map, next);
+      if (!Gives(truly, next) || !Adds(truly, of_load, next - load)) break;
       r += kForceStep;
     }
     out.worst = std::min(out.worst, r);

@@ -19,7 +19,7 @@ inline constexpr double kGrossError = 10;
 struct DataFault {
   std::string record, channel;  // data file; "" for all columns of the record
   std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario |
-                       // controller (record: the rig file, channel: a bearing)
+                       // controller (record: the rig file, channel: a bearing, or "the rig")
   double factor = 1;   // measured over what it should be [-]: unit, sign
   double seconds = 0;  // late (positive), lost, frozen or clipped time [s]
   // the other column, the scenario that fits; "phase", "conjugate", "decibels", "empty" ...

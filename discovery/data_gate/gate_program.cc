@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -42,27 +43,44 @@ RigParameters WithDouble(const RigParameters& rig, double PidParameters::*gain) 
   return out;
 }
 
-/// Adds the axes of a record that show the program; the error is linear in the gains.
-void AddAxes(const CaseRecord& r, const RigParameters& rig,
-             const std::array<RigParameters, kGains>& doubled, const BearingParameters& bearing,
-             GainSums& sums) {
+/// Sums by the bearing that has gains of its own; "": the others.
+using SumsOfGains = std::map<std::string, GainSums>;
+
+/// The sums that an axis belongs to; null: none.
+GainSums* SumsOf(const RigParameters& rig, const std::string& axis, SumsOfGains& sums) {
+  for (const BearingParameters& b : rig.bearings)
+    if (std::ranges::count(b.Axes(), axis)) return &sums[b.controller ? b.name : ""];
+  return nullptr;
+}
+
+/// Adds the axes of a record that show the program; the error is linear in the gains. What is
+/// right by one axis is replayed with no other gains.
+void AddRecord(const CaseRecord& r, const RigParameters& rig,
+               const std::array<RigParameters, kGains>& doubled, SumsOfGains& sums) {
   const BridgedRecord data = ControllerRecord(r.data);
   const std::vector<ControllerAxis> now = ControllerAxes(rig, r.scenario, data);
+  for (const ControllerAxis& a : now)
+    if (GainSums* s = SumsOf(rig, a.axis, sums); s && ShowsProgram(a) && !IsWrong(a))
+      s->any_right = true;
+  const auto open = [&](const ControllerAxis& a) {
+    const GainSums* s = SumsOf(rig, a.axis, sums);
+    return s && ShowsProgram(a) && !s->any_right;
+  };
+  if (std::ranges::none_of(now, open)) return;
   std::array<std::vector<ControllerAxis>, kGains> twice;
   for (std::size_t g = 0; g < kGains; ++g) twice[g] = ControllerAxes(doubled[g], r.scenario, data);
-  const std::vector<std::string> own = bearing.Axes();
   for (std::size_t a = 0; a < now.size(); ++a) {
-    if (std::ranges::count(own, now[a].axis) == 0 || !ShowsProgram(now[a])) continue;
-    ++sums.axes;
-    if (!IsWrong(now[a])) sums.any_right = true;
+    if (!open(now[a])) continue;
+    GainSums& s = *SumsOf(rig, now[a].axis, sums);
+    ++s.axes;
     for (std::size_t k = 0; k < now[a].error.size(); ++k) {
       if (!now[a].counts[k]) continue;
       Eigen::Vector3d answer;
       for (std::size_t g = 0; g < kGains; ++g)
         answer(static_cast<Eigen::Index>(g)) = now[a].error[k] - twice[g][a].error[k];
-      sums.square += answer * answer.transpose();
-      sums.with_error += answer * now[a].error[k];
-      sums.error += now[a].error[k] * now[a].error[k];
+      s.square += answer * answer.transpose();
+      s.with_error += answer * now[a].error[k];
+      s.error += now[a].error[k] * now[a].error[k];
     }
   }
 }
@@ -90,12 +108,15 @@ void CheckProgram(const CaseModel& model, std::vector<DataFault>& out) {
   const RigParameters& rig = model.data().rig;
   std::array<RigParameters, kGains> doubled;
   for (std::size_t g = 0; g < kGains; ++g) doubled[g] = WithDouble(rig, kGainFields[g]);
-  std::map<std::string, GainSums> sums;  // by the bearing that has gains of its own; "": the others
+  SumsOfGains sums;
   for (const BearingParameters& b : rig.bearings)
-    for (const CaseRecord& r : model.data().records)
-      if (b.kind->eight_poles && OverTime(r) && r.imposed == Imposed::kNothing &&
-          r.scenario.faults.empty() && HasControllerBlock(rig, r.scenario, r.data))
-        AddAxes(r, rig, doubled, b, sums[b.controller ? b.name : ""]);
+    if (b.kind->eight_poles) sums[b.controller ? b.name : ""];
+  for (const CaseRecord& r : model.data().records) {
+    if (std::ranges::all_of(sums, [](const auto& s) { return s.second.any_right; })) return;
+    if (OverTime(r) && r.imposed == Imposed::kNothing && r.scenario.faults.empty() &&
+        HasControllerBlock(rig, r.scenario, r.data))
+      AddRecord(r, rig, doubled, sums);
+  }
   for (const auto& [bearing, s] : sums) {
     const BearingParameters* b = rig.Find(bearing);
     const std::string gains = GainsThatRan(b ? PidOf(rig, *b) : rig.controller.pid, s);

@@ -12,7 +12,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kOfMovement = 0.03;  // of the command's movement: rounding of the record
+constexpr double kCurrentFloor = 1e-4;  // [A], of a control current
+constexpr double kOfMovement = 0.03;    // of the command's movement: rounding of the record
 
 bool DrivesController(const std::string& channel) {
   return IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint);

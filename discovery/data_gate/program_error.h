@@ -6,8 +6,6 @@
 
 namespace ambrig {
 
-inline constexpr double kCurrentFloor = 1e-4;  // [A], of a control current
-
 /// The readings and set-points of a record, with short gaps bridged.
 BridgedRecord ControllerRecord(const Record& data);
 

@@ -214,7 +214,9 @@ class Ranker {
     for (int time = 0; time < kTimes; ++time) {
       if (ExplainedShare(BothRatios(now_), BothRatios(r.fit)) < kRivalExplains && !r.from_nominal)
         return;
-      RankedEffect more = r;
+      RankedEffect more;
+      more.from_nominal = r.from_nominal;
+      more.screened_ratio = r.screened_ratio;
       more.fit = FitShortly(s_.model, now_, r.fit.hypothesis, s_.effective_sample_size);
       if (!more.fit.converged) return;
       Note(more);

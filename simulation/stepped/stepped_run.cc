@@ -47,7 +47,7 @@ SteppedRun::SteppedRun(const RigParameters& rig, const Scenario& scenario)
     : rig_(rig),
       scenario_(scenario),
       plan_(*NominalRig(rig), scenario),
-      supervisor_(SupervisorOf(rig, scenario, false)) {
+      supervisor_(SupervisorOf(rig, scenario, false).supervisor) {
   AddCommands();
   EngineOptions options;
   options.record = false;

@@ -93,17 +93,23 @@ TEST(EstimateNoise, WhatDiffersFromRecordToRecordIsNotBelievedSoFast) {
   EXPECT_EQ(EstimatedNoise(c, "A.x").used, 1.8e-7);
 }
 
-// Filtered noise shows little of itself from row to row. A statement that is too large is
-// contradicted by the errors.
-TEST(EstimateNoise, FilteredNoiseIsAsLargeAsStated) {
-  Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
-  const double keep = 0.95, rms = 3e-6, fresh = rms * std::sqrt(1 - keep * keep);
+/// Adds noise of some 20 rows' time constant to A.x of all records.
+void AddFilteredNoise(Case& c, double rms) {
+  const double keep = 0.95, fresh = rms * std::sqrt(1 - keep * keep);
   std::uint32_t seed = 1;
   for (CaseRecord& r : c.records) {
     double filtered = 0;
     for (double& v : r.data.channels[0].samples)
       v += filtered = keep * filtered + fresh * Normal(5, 9, seed++);
   }
+}
+
+// Filtered noise shows little of itself from row to row. A statement that is too large is
+// contradicted by the errors.
+TEST(EstimateNoise, FilteredNoiseIsAsLargeAsStated) {
+  Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
+  const double rms = 3e-6;
+  AddFilteredNoise(c, rms);
   c.noise["A.x"] = rms;
   const ChannelNoise noise = EstimatedNoise(c, "A.x");
   EXPECT_LT(noise.estimated, 0.5 * rms);
@@ -115,13 +121,8 @@ TEST(EstimateNoise, FilteredNoiseIsAsLargeAsStated) {
 // A statement that is far too small says nothing: the whole noise is estimated as without it.
 TEST(EstimateNoise, FilteredNoiseFarAboveTheStatedOneIsEstimatedWhole) {
   Case c = MeasuredCase(std::vector<MeasuredPlace>(12, {2e-5, 3e-5}));
-  const double keep = 0.95, rms = 3e-6, fresh = rms * std::sqrt(1 - keep * keep);
-  std::uint32_t seed = 1;
-  for (CaseRecord& r : c.records) {
-    double filtered = 0;
-    for (double& v : r.data.channels[0].samples)
-      v += filtered = keep * filtered + fresh * Normal(5, 9, seed++);
-  }
+  const double rms = 3e-6;
+  AddFilteredNoise(c, rms);
   c.noise["A.x"] = rms / 30;
   const double stated = EstimatedNoise(c, "A.x").used;
   c.noise.erase("A.x");
