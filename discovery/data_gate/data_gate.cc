@@ -9,37 +9,12 @@
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
 #include "discovery/data_gate/gate_points.h"
+#include "discovery/data_gate/program_error.h"
 #include "discovery/model/in_parallel.h"
 
 namespace ambrig {
 
 namespace {
-
-/// The columns of a record that the model predicts.
-std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<double>& predicted,
-                                  std::size_t record) {
-  std::vector<GateColumn> out;
-  const CaseRecord& r = model.data().records[record];
-  for (const Target& t : model.targets()) {
-    if (t.record != record) continue;
-    GateColumn c;
-    const Channel& channel = r.data.channels[t.channel];
-    c.name = channel.name;
-    c.floor = t.floor;
-    c.column.measured.resize(t.count);
-    c.column.predicted.resize(t.count);
-    c.column.ok.resize(t.count);
-    for (std::size_t k = 0; k < t.count; ++k) {
-      const double y = channel.samples[model.sample(t.first + k)];
-      c.column.ok[k] = std::isfinite(y) && std::isfinite(predicted[t.first + k]) ? 1 : 0;
-      c.column.measured[k] = c.column.ok[k] ? y / t.floor : 0;
-      c.column.predicted[k] = c.column.ok[k] ? predicted[t.first + k] / t.floor : 0;
-    }
-    c.match = MatchOf(c.column);
-    out.push_back(std::move(c));
-  }
-  return out;
-}
 
 /// Whether the model predicts any of the record: not where it loses its rotor at once.
 bool Predicted(const CaseModel& model, std::size_t record) {
@@ -76,6 +51,8 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
     CheckHeldFromStart(model, r, columns, out);
     return out;
   }
+  const std::vector<std::string> answered = AnsweredReadings(model, r);
+  for (GateColumn& c : columns) c.answered = std::ranges::count(answered, c.name) > 0;
   CheckUnits(model, r, columns, out);
   CheckSwaps(model, r, columns, out);
   CheckLevelFactors(model, r, columns, out);
@@ -138,6 +115,8 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
   for (std::vector<DataFault>& faults : of_record)
     std::ranges::move(faults, std::back_inserter(out));
   if (out.empty()) CheckProgram(model, out);
+  if (out.empty()) CheckCurrentClocks(model, h, out);
+  if (out.empty()) CheckLoads(model, predicted, h, out);
   return out;
 }
 

@@ -67,6 +67,15 @@ void CheckAngle(const CaseModel& model, std::size_t record, std::vector<DataFaul
 void CheckController(const CaseModel& model, std::size_t record,
                      const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 
+/// Coil currents that come late or early after their own set-points in some records, while the coil
+/// follows in others: no effect of the rig does that.
+void CheckCurrentClocks(const CaseModel& model, const Hypothesis& h, std::vector<DataFault>& out);
+
+/// Loads of another direction or at other instants than the scenario of a record states, where the
+/// other records agree with the model.
+void CheckLoads(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
+                std::vector<DataFault>& out);
+
 /// Gains of the rig file's controllers against those with which the set-points of all records were
 /// computed.
 void CheckProgram(const CaseModel& model, std::vector<DataFault>& out);

@@ -17,6 +17,31 @@ namespace {
 constexpr double kZeroSds = 4;
 }
 
+std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<double>& predicted,
+                                  std::size_t record) {
+  std::vector<GateColumn> out;
+  const CaseRecord& r = model.data().records[record];
+  for (const Target& t : model.targets()) {
+    if (t.record != record) continue;
+    GateColumn c;
+    const Channel& channel = r.data.channels[t.channel];
+    c.name = channel.name;
+    c.floor = t.floor;
+    c.column.measured.resize(t.count);
+    c.column.predicted.resize(t.count);
+    c.column.ok.resize(t.count);
+    for (std::size_t k = 0; k < t.count; ++k) {
+      const double y = channel.samples[model.sample(t.first + k)];
+      c.column.ok[k] = std::isfinite(y) && std::isfinite(predicted[t.first + k]) ? 1 : 0;
+      c.column.measured[k] = c.column.ok[k] ? y / t.floor : 0;
+      c.column.predicted[k] = c.column.ok[k] ? predicted[t.first + k] / t.floor : 0;
+    }
+    c.match = MatchOf(c.column);
+    out.push_back(std::move(c));
+  }
+  return out;
+}
+
 double MostZero(const CaseModel& model, const std::string& channel) {
   const auto& declared = model.data().nuisances.sensor_zero;
   const auto own = declared.find(channel);

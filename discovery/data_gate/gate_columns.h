@@ -16,7 +16,12 @@ struct GateColumn {
   Match match;             // of it
   double floor = 1;        // of the channel [SI]
   bool explained = false;  // a fault was found: later checks leave it out
+  bool answered = false;   // a reading of which the controller's program makes the set-points
 };
+
+/// The columns of a record over time that the model predicts. `predicted`: all rows of `model`.
+std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<double>& predicted,
+                                  std::size_t record);
 
 /// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by
 /// no more are not told apart.

@@ -11,6 +11,7 @@
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
 #include "discovery/data_gate/gate_shifts.h"
+#include "discovery/data_gate/lost_rows.h"
 #include "discovery/data_gate/program_error.h"
 #include "discovery/model/controller_block.h"
 #include "discovery/model/record_traits.h"
@@ -24,6 +25,7 @@ constexpr double kUndone = 0.1;            // of the error that the right hypoth
 constexpr double kOfInputNuisances = 0.3;  // of it that a clock and an input's size may leave
 constexpr double kMostInputGain = 1.6;     // that the fits give an input, or its inverse
 constexpr double kLongestLag = 0.05;       // [s]
+constexpr std::size_t kMostBlocks = 4;     // of lost rows in one record
 
 /// The errors of all axes, rows that count only [A].
 Eigen::VectorXd CountedErrors(const std::vector<ControllerAxis>& axes) {
@@ -214,6 +216,18 @@ void TellInput(const CaseRecord& r, const InputFit& fit, std::vector<DataFault>&
   }
 }
 
+/// The first block of rows that were lost, with the others in its detail.
+void TellLostBlocks(const CaseRecord& r, const LostBlocks& lost, std::vector<DataFault>& out) {
+  const auto seconds = [&](std::size_t rows) { return static_cast<double>(rows) / r.data.rate; };
+  const LostBlock& first = lost.blocks[0];
+  out.push_back(TimeFault(r, "", {-seconds(first.rows), seconds(first.row), lost.left, false}));
+  DataFault& f = out.back();
+  f.detail = fmt::format("{} rows at {:.4g} s", first.rows, r.data.TimeAt(first.row));
+  for (std::size_t k = 1; k < lost.blocks.size(); ++k)
+    f.detail += fmt::format(", {} rows at {:.4g} s", lost.blocks[k].rows,
+                            r.data.TimeAt(lost.blocks[k].row));
+}
+
 }  // namespace
 
 void CheckController(const CaseModel& model, std::size_t record,
@@ -232,6 +246,11 @@ void CheckController(const CaseModel& model, std::size_t record,
   if (wrong.empty() || !ProgramIsRight(model)) return;
   if (const InputFit fit = FitInput(rig, r.scenario, data); fit.left < kOfInputNuisances) {
     TellInput(r, fit, out);
+    return;
+  }
+  const LostBlocks lost = FindLostBlocks(rig, r.scenario, data);
+  if (lost.left < kOfInputNuisances && !lost.blocks.empty() && lost.blocks.size() <= kMostBlocks) {
+    TellLostBlocks(r, lost, out);
     return;
   }
   const auto worst = *std::ranges::max_element(wrong, {}, [](auto* a) { return a->rms; });

@@ -57,7 +57,8 @@ struct ExchangeSide {
   GateColumn& column;
   double error;  // beside a zero, as it stands [floors]
   // The coil really carries what the column shows: its set-point asks for it, and the rest of its
-  // bearing errs too. A force of the other sign makes opposite coils look exchanged.
+  // bearing errs too. A force of the other sign makes opposite coils look exchanged. Or the
+  // controller answered to this reading.
   bool carried;
 };
 
@@ -65,8 +66,8 @@ ExchangeSide ExchangeSideOf(const CaseModel& model, const std::vector<GateColumn
                             GateColumn& c) {
   const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
   return {c, error,
-          error >= kLeastOfOne && BorneOut(columns, c) &&
-              OthersOf(columns, c).error > std::min(kAlone * error, kGrossError)};
+          c.answered || (error >= kLeastOfOne && BorneOut(columns, c) &&
+                         OthersOf(columns, c).error > std::min(kAlone * error, kGrossError))};
 }
 
 /// Whether a third column of their kind that stands still errs by more than so many floors beside

@@ -108,7 +108,7 @@ std::vector<const GateColumn*> OtherCells(const std::vector<GateColumn>& columns
 /// Nothing where a fault was found already, or where the error is not gross.
 std::optional<Suspect> SuspectOf(const CaseModel& model, const std::vector<GateColumn>& columns,
                                  const GateColumn& c) {
-  if (c.explained) return {};
+  if (c.explained || c.answered) return {};
   const double zero = MostZero(model, c.name), error = ErrorBesideZero(c, c.column.predicted, zero);
   if (error < kGrossError) return {};
   return Suspect{c,

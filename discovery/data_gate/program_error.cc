@@ -46,13 +46,20 @@ bool IsWrong(const ControllerAxis& a) {
 
 bool ShowsProgram(const ControllerAxis& a) { return a.movement > 2 * kGrossError * kCurrentFloor; }
 
+std::vector<std::string> AnsweredReadings(const CaseModel& model, std::size_t record) {
+  std::vector<std::string> out;
+  const CaseRecord& r = model.data().records[record];
+  if (!OverTime(r) || !HasControllerBlock(model.data().rig, r.scenario, r.data)) return out;
+  for (const ControllerAxis& a :
+       ControllerAxes(model.data().rig, r.scenario, ControllerRecord(r.data)))
+    if (ShowsProgram(a) && !IsWrong(a)) out.push_back(a.axis);
+  return out;
+}
+
 bool ProgramIsRight(const CaseModel& model) {
-  return std::ranges::any_of(model.data().records, [&](const CaseRecord& r) {
-    if (!OverTime(r) || !HasControllerBlock(model.data().rig, r.scenario, r.data)) return false;
-    const auto axes = ControllerAxes(model.data().rig, r.scenario, ControllerRecord(r.data));
-    return std::ranges::any_of(
-        axes, [](const ControllerAxis& a) { return ShowsProgram(a) && !IsWrong(a); });
-  });
+  for (std::size_t r = 0; r < model.data().records.size(); ++r)
+    if (!AnsweredReadings(model, r).empty()) return true;
+  return false;
 }
 
 }  // namespace ambrig

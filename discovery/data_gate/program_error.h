@@ -15,6 +15,10 @@ bool IsWrong(const ControllerAxis& a);
 /// Whether an axis moves so much that the program shows in it.
 bool ShowsProgram(const ControllerAxis& a);
 
+/// Axes of a record whose set-points are what the program makes of their readings: these were
+/// logged as the controller saw them.
+std::vector<std::string> AnsweredReadings(const CaseModel& model, std::size_t record);
+
 /// Whether the program of the rig file is the one that computed the set-points: an axis of the case
 /// that moves agrees.
 bool ProgramIsRight(const CaseModel& model);

@@ -89,6 +89,32 @@ TEST(GateController, CommandsThatAreLateAreTheClockOfTheRecord) {
   EXPECT_NEAR(faults[0].seconds, 80 / RadialRig().controller.rate, 1e-5);
 }
 
+/// The case without rows `first` to `first` + `rows` of one record.
+void LoseRows(Case& c, const std::string& record, long first, long rows) {
+  CaseRecord& r = c.records[RecordNamed(c, record)];
+  for (Channel& ch : r.data.channels)
+    ch.samples.erase(ch.samples.begin() + first, ch.samples.begin() + first + rows);
+}
+
+// Blocks that are too short for the prediction to tell, on a machine with a force that the model
+// lacks.
+TEST(GateController, LostRowsAreToldByTheCommands) {
+  EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
+  cross.values[0] = 1e5;
+  const char* kSines = "multisine at 60 Hz";
+  Case c = Measured({cross}, 0, kSines);
+  const std::size_t record = RecordNamed(c, kSines);
+  LoseRows(c, kSines, 2000, 9);
+  LoseRows(c, kSines, 900, 5);
+  std::vector<DataFault> faults;
+  CheckController(CaseModel(c), record, {}, faults);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "lost");
+  EXPECT_NEAR(faults[0].seconds, 5 / c.records[record].data.rate, 1e-9);
+  EXPECT_NE(faults[0].detail.find("5 rows at "), std::string::npos) << faults[0].detail;
+  EXPECT_NE(faults[0].detail.find(", 9 rows at "), std::string::npos) << faults[0].detail;
+}
+
 TEST(GateController, AReadingThatIsLateByFewRowsIsNamed) {
   Case c = Measured();
   ShiftColumn(c, "A.x", 5);

@@ -1,0 +1,68 @@
+// Loads that acted otherwise than their scenario states are told with what acted; what the rig does
+// under its loads is left to the fits.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+
+#include "effects/catalogue.h"
+#include "tests/discovery/data_gate/gate_case.h"
+
+namespace ambrig {
+namespace {
+
+using testing::FaultsOf;
+using testing::kStepRecord;
+using testing::Measured;
+using testing::RadialRig;
+using testing::RecordNamed;
+
+/// The case whose step record was loaded otherwise than its scenario file says, on a rotor that is
+/// 1 % heavier.
+Case LoadedOtherwise(const std::function<void(LoadSpec&)>& change) {
+  Case c = Measured({}, 0, "multisine at 60 Hz");
+  Scenario& scenario = c.records[RecordNamed(c, kStepRecord)].scenario;
+  const Scenario written = scenario;
+  change(scenario.loads.at(0));
+  Hypothesis truth;
+  truth.rig = RadialRig();
+  truth.rig.rotor.mass *= 1.01;
+  c = testing::MeasuredBy(truth, c);
+  c.records[RecordNamed(c, kStepRecord)].scenario = written;
+  return c;
+}
+
+void ExpectLoad(const Case& c, const std::string& force_and_edges) {
+  const std::vector<DataFault> faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "scenario") << FaultText(faults[0]);
+  EXPECT_EQ(faults[0].record, kStepRecord);
+  EXPECT_NE(faults[0].detail.find(force_and_edges), std::string::npos) << faults[0].detail;
+}
+
+TEST(GateLoads, AnotherDirection) {
+  ExpectLoad(LoadedOtherwise([](LoadSpec& l) { std::swap(l.fx, l.fy); }),
+             "its loads were rather force = [");
+}
+
+TEST(GateLoads, AnotherInstant) {
+  ExpectLoad(LoadedOtherwise([](LoadSpec& l) { l.start -= 0.02; }), "start = 0.155, stop = 0.234");
+}
+
+TEST(GateLoads, AnotherSizeIsLeftToTheFits) {
+  for (const double size : {0.5, 0.7, 1.3})
+    for (const DataFault& f :
+         FaultsOf(LoadedOtherwise([&](LoadSpec& l) { l.fx *= size, l.fy *= size; })))
+      ADD_FAILURE() << size << ": " << FaultText(f);
+}
+
+// A sideways answer to a load is that of the rig.
+TEST(GateLoads, ARigWithCrossCouplingIsLoadedAsStated) {
+  EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
+  cross.values[0] = 1e5;
+  for (const DataFault& f : FaultsOf(Measured({cross}, 0, "multisine at 60 Hz")))
+    ADD_FAILURE() << FaultText(f);
+}
+
+}  // namespace
+}  // namespace ambrig
