@@ -116,7 +116,14 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     std::ranges::move(faults, std::back_inserter(out));
   if (out.empty()) CheckProgram(model, out);
   if (out.empty()) CheckCurrentClocks(model, h, out);
-  if (out.empty()) CheckLoads(model, predicted, h, out);
+  if (out.empty()) CheckInputs(model, predicted, h, out);
+  return out;
+}
+
+std::vector<DataFault> InspectInputs(const CaseModel& model, const std::vector<double>& predicted,
+                                     const Hypothesis& h) {
+  std::vector<DataFault> out;
+  CheckInputs(model, predicted, h, out);
   return out;
 }
 

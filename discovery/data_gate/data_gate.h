@@ -35,7 +35,12 @@ struct DataFault {
 std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
                                    const Hypothesis& h);
 
-/// The same with each floor not above `stated` (per target): a gross error is no noise, whatever
+/// Faults `scenario` of loads and commands that acted otherwise than stated, which show where the
+/// other records agree: beside parameters that were fitted, as `predicted` and `h` are.
+std::vector<DataFault> InspectInputs(const CaseModel& model, const std::vector<double>& predicted,
+                                     const Hypothesis& h);
+
+/// InspectData with each floor not above `stated` (per target): a gross error is no noise, whatever
 /// its differences look like. The model's floors stay as they are.
 std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<double>& predicted,
                                         const Hypothesis& h, const std::vector<double>& stated);

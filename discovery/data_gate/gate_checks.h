@@ -71,10 +71,10 @@ void CheckController(const CaseModel& model, std::size_t record,
 /// follows in others: no effect of the rig does that.
 void CheckCurrentClocks(const CaseModel& model, const Hypothesis& h, std::vector<DataFault>& out);
 
-/// Loads of another direction or at other instants than the scenario of a record states, where the
-/// other records agree with the model.
-void CheckLoads(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
-                std::vector<DataFault>& out);
+/// Loads of another direction or at other instants than the scenario of a record states, and
+/// commands of other sizes, where the other records agree with the model.
+void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
+                 std::vector<DataFault>& out);
 
 /// Gains of the rig file's controllers against those with which the set-points of all records were
 /// computed.

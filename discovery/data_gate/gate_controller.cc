@@ -8,6 +8,7 @@
 #include "core/record/channels.h"
 #include "discovery/data/clock_shift.h"
 #include "discovery/data/noise_estimate.h"
+#include "discovery/data_gate/command_sizes.h"
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
 #include "discovery/data_gate/gate_shifts.h"
@@ -246,6 +247,14 @@ void CheckController(const CaseModel& model, std::size_t record,
   if (wrong.empty() || !ProgramIsRight(model)) return;
   if (const InputFit fit = FitInput(rig, r.scenario, data); fit.left < kOfInputNuisances) {
     TellInput(r, fit, out);
+    return;
+  }
+  const CommandSizes sizes = FindCommandSizes(rig, r.scenario, data);
+  if (const std::string text = CommandSizesText(r.scenario, sizes.of_excitations);
+      sizes.left < kUndone && !text.empty()) {
+    DataFault f = FaultLeaving(r, "", "scenario", sizes.left);
+    f.detail = text;
+    TellScenario(f, out);
     return;
   }
   const LostBlocks lost = FindLostBlocks(rig, r.scenario, data);

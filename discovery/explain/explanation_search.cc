@@ -82,6 +82,7 @@ std::vector<std::string> ExplanationSearch::Prepare(const Hypothesis& nominal) {
 Explanation ExplanationSearch::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   FitResult base = FitBase(nominal, as_filed);
   if (FindCorrections(base)) return {};
+  if (FindWrongInputs(base)) return report_.OfWrongData(base, base.ratio_validate);
   FitResult now = base;
   FindEffects(as_filed, base, now);
   Polish(now);
@@ -226,6 +227,13 @@ bool ExplanationSearch::FindInputs(const FitResult& base) {
   if (auto larger = LargerInputs(models_, nuisances_.of_records(), base))
     corrections_.inputs_larger = std::move(*larger);
   return corrections_.any();
+}
+
+bool ExplanationSearch::FindWrongInputs(const FitResult& base) {
+  const FitResult all = models_.AtAllRows(base);
+  if (all.predicted.empty()) return false;
+  report_.NoteData(InspectInputs(models_.full(), all.predicted, all.hypothesis));
+  return !report_.data().empty();
 }
 
 // An effect that moves every column hides what a logger did to one of them until it is in the

@@ -54,6 +54,9 @@ class ExplanationSearch {
   bool FindCorrections(const FitResult& base) { return FindLateRows(base) || FindInputs(base); }
   bool FindLateRows(const FitResult& base);
   bool FindInputs(const FitResult& base);
+  /// Loads and commands of one record that acted otherwise than stated, seen beside the fitted
+  /// parameters; whether there are any.
+  bool FindWrongInputs(const FitResult& base);
   /// Errors of the data that show beside the effects found and did not beside the rig file's model;
   /// whether there are any.
   bool FindWrongData(const FitResult& now);

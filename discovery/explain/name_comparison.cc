@@ -31,6 +31,10 @@ bool NameComparison::CompareBeside(const FitResult& base, std::size_t index,
                                    const std::vector<EffectInstance>& rivals, FitResult& now) {
   std::vector<RankedEffect> ranking = RankBeside(models_.thinned(), {base, now, adopted_.all()},
                                                  index, rivals, models_.effective_sample_size());
+  if (names_.KeepSharedCurve(ranking)) {
+    std::ranges::stable_sort(ranking, {}, &RankedEffect::score);
+    SetProbabilities(base, ranking);
+  }
   const RankedEffect& best = ranking[0];
   const EffectInstance before = adopted_[index];
   const bool swapped =

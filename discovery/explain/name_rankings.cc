@@ -1,6 +1,8 @@
 #include "discovery/explain/name_rankings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "discovery/decision/law_scatter.h"
 
@@ -24,7 +26,8 @@ std::vector<RankedEffect> WithoutSensitivities(std::vector<RankedEffect> ranking
 void NameRankings::KeepNames(const std::vector<RankedEffect>& ranking) {
   rounds_.emplace_back();
   for (const RankedEffect& r : ranking)
-    rounds_.back().push_back({r.effect, r.probability, r.RatioFit(), r.shaped.has_value()});
+    rounds_.back().push_back(
+        {r.effect, r.probability, r.RatioFit(), r.shaped.has_value(), r.shares_curve});
 }
 
 void NameRankings::NoteRound(int round, const std::vector<RankedEffect>& ranking) {
@@ -93,6 +96,29 @@ bool NameRankings::ComparedByShape(const EffectInstance& a, const EffectInstance
     };
     return by_shape(a) && by_shape(b);
   });
+}
+
+bool NameRankings::KeepSharedCurve(std::vector<RankedEffect>& ranking) const {
+  bool changed = false;
+  for (const std::vector<RankedName>& round : rounds_) {
+    std::vector<std::pair<RankedEffect*, double>> sharing;  // with their probabilities in the round
+    for (const RankedName& n : round)
+      for (RankedEffect& r : ranking)
+        if (n.shares_curve && n.probability > 0 && IsSameName(n.effect, r.effect))
+          sharing.emplace_back(&r, n.probability);
+    if (sharing.size() < 2) continue;
+    const auto [nearer, share] =
+        *std::ranges::min_element(sharing, {}, [](const auto& s) { return s.first->score; });
+    for (const auto& [r, probability] : sharing) {
+      r->shares_curve = true;
+      r->shaped = nearer->shaped;
+      const double score = nearer->score + 2 * std::log(share / probability);
+      if (r == nearer || score >= r->score) continue;
+      r->score = score;
+      changed = true;
+    }
+  }
+  return changed;
 }
 
 bool NameRankings::IsDoubtful(const EffectInstance& e, double least) const {

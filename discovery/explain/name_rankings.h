@@ -42,6 +42,9 @@ class NameRankings {
   /// Whether a round compared both names with the shapes of their laws free: no law of the
   /// catalogue tells more than these.
   bool ComparedByShape(const EffectInstance& a, const EffectInstance& b) const;
+  /// Names that share a free magnetisation curve keep their odds in a ranking of their laws beside
+  /// other effects: no law of the catalogue is that curve. Scores only; whether any changed.
+  bool KeepSharedCurve(std::vector<RankedEffect>& ranking) const;
   /// Whether a comparison of this further effect leaves its name less than this probability.
   bool IsDoubtful(const EffectInstance& e, double least) const;
 
@@ -67,6 +70,7 @@ class NameRankings {
     EffectInstance effect;
     double probability = 0, ratio = 0;  // ratio_fit of its fit
     bool by_shape = false;              // with the shape of its law free
+    bool shares_curve = false;
   };
   void KeepNames(const std::vector<RankedEffect>& ranking);
 

@@ -1,6 +1,7 @@
 #include "discovery/explain/nuisance_selection.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/nuisance_choice.h"
 #include "discovery/model/nuisance_kinds.h"
+#include "discovery/model/residual.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/likelihood.h"
 #include "discovery/search/linear_step.h"
@@ -22,6 +24,35 @@ namespace {
 constexpr double kMostOfNuisances = 0.9;
 constexpr std::size_t kManyAmounts = 8;
 constexpr std::size_t kTried = 3;  // effects in their place
+
+/// Whether nearly all that amounts explain would be explained by the same amount in all records of a
+/// free rotor, and by one in those of a held rotor: what acts on the rotor is not seen in these.
+bool AreTheSame(const Case& data, const std::vector<NuisanceFound>& amounts) {
+  constexpr double kNearlyAll = 0.9;
+  constexpr int kLeastRecords = 3;  // of a free rotor: two may agree by chance
+  std::map<std::string, bool> held;
+  for (const CaseRecord& r : data.records)
+    held[r.data_file] = r.scenario.start == StartState::kClamped;
+  if (std::ranges::count(held, false, [](const auto& r) { return r.second; }) < kLeastRecords)
+    return false;
+  struct Sums {
+    double information = 0, weighted = 0, square = 0;
+  };
+  std::map<std::pair<std::string, bool>, Sums> kinds;
+  for (const NuisanceFound& f : amounts) {
+    if (f.record.empty() || !(f.sd > 0)) continue;
+    Sums& s = kinds[{f.name, held[f.record]}];
+    s.information += 1 / (f.sd * f.sd);
+    s.weighted += f.value / (f.sd * f.sd);
+    s.square += f.value * f.value / (f.sd * f.sd);
+  }
+  double all = 0, common = 0;
+  for (const auto& [name, s] : kinds) {
+    all += s.square;
+    common += s.weighted * s.weighted / s.information;
+  }
+  return common > kNearlyAll * all;
+}
 
 }  // namespace
 
@@ -99,6 +130,8 @@ std::optional<NuisanceSelection::Before> NuisanceSelection::Try(FitResult& now, 
   if (!explains(promised, 0.6 * least_share)) return give_up();
   FitResult with = models_.FitFrom(now.hypothesis, &promised.jacobian);
   if (!explains(with, least_share)) return give_up();
+  if (!effects_found && AreTheSame(models_.data(), AmountsOfNuisances(model, with.predicted)))
+    return give_up();
   state.fit = std::exchange(now, std::move(with));
   log_.Step("zeros, clocks and inputs of each record", now);
   return state;

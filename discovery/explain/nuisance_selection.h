@@ -58,7 +58,8 @@ class NuisanceSelection {
   };
   /// Zeros, clocks and inputs that differ from record to record, where the case declares none. They
   /// are kept where they explain `least_share` of the error above the noise, and a linear step
-  /// promises a good part of it. `now` becomes the fit beside them. The search before them is
+  /// promises a good part of it. Before effects are found, amounts that are the same in all records
+  /// are left to these. `now` becomes the fit beside them. The search before them is
   /// returned; nothing where they are not kept.
   std::optional<Before> Try(FitResult& now, double least_share, bool effects_found);
   /// Whether one effect explains as much as the nuisances of every record together, which are many:

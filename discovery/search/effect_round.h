@@ -20,6 +20,7 @@ struct RankedEffect {
   // what the law leaves in a free shape (discovery/shape/shape_names.h), where that was tried and
   // is less
   std::optional<StageRatios> shaped;
+  bool shares_curve = false;  // a free magnetisation curve is of this name and of another one
 
   /// Errors over the noise that count for the name: of the free shape, else of the fit.
   double RatioFit() const { return shaped ? shaped->fit : fit.ratio_fit; }

@@ -62,7 +62,7 @@ class ShapeJudge {
   /// there, is of both names: each as probable as the part of the MMF that is its own, the nearer
   /// law not less than the other.
   void ShareCurve() {
-    const auto nearer = std::find_if(ranking_.begin(), ranking_.end(), [&](const RankedEffect& r) {
+    auto nearer = std::find_if(ranking_.begin(), ranking_.end(), [&](const RankedEffect& r) {
       return r.shaped && (IsAt(r, "saturation") || IsAt(r, "iron-reluctance"));
     });
     if (nearer == ranking_.end()) return;
@@ -70,13 +70,18 @@ class ShapeJudge {
     const double rise = SaturatingShare(curve_), part = std::min(0.5, saturates ? 1 - rise : rise);
     if (part < kBothLaws) return;
     const std::string other = saturates ? "iron-reluctance" : "saturation";
+    nearer->shares_curve = true;
     const double score = nearer->score + 2 * std::log((1 - part) / part);
+    const std::optional<StageRatios> left = nearer->shaped;
     const auto known = std::find_if(ranking_.begin(), ranking_.end(),
                                     [&](const RankedEffect& r) { return IsAt(r, other); });
-    if (known != ranking_.end())
-      known->score = std::min(known->score, score);
-    else
-      Join(other, {}, score);
+    if (known == ranking_.end()) {
+      if (Join(other, left, score)) ranking_.back().shares_curve = true;
+      return;
+    }
+    known->score = std::min(known->score, score);
+    known->shaped = left;
+    known->shares_curve = true;
   }
 
   /// Forces and drags that are plain enough, and whose law is not exact.
@@ -174,21 +179,23 @@ class ShapeJudge {
     }
   }
 
-  /// The catalogue's law of a name that was not ranked, with a score of its own.
-  void Join(const std::string& name, const std::optional<StageRatios>& shaped, double score) {
+  /// The catalogue's law of a name that was not ranked, with a score of its own. Whether it has a
+  /// size.
+  bool Join(const std::string& name, const std::optional<StageRatios>& shaped, double score) {
     ScreenOptions what;
     what.effective_sample_size = s_.effective_sample_size;
     what.effect = name;
     what.target = target_;
     RankedEffect r;
     r.fit = FitScreened(s_.model, now_, what);
-    if (!r.fit.converged) return;
+    if (!r.fit.converged) return false;
     r.fit = FitOn(s_.model, now_, r.fit.hypothesis, s_.effective_sample_size);
-    if (!r.fit.converged || !HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return;
+    if (!r.fit.converged || !HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return false;
     r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
     r.shaped = shaped;
     r.score = score;
     ranking_.push_back(std::move(r));
+    return true;
   }
 
   const RoundSetting& s_;

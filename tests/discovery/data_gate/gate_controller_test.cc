@@ -74,6 +74,25 @@ TEST(GateController, CommandsOfAnotherSizeAreOfAnotherScenarioBeyondWhatFitsAllo
   }
 }
 
+// One sine of four had another size: its high frequencies look like the noise of a sensor.
+TEST(GateController, ACommandOfAnotherSizeIsNamed) {
+  Case c = Measured({}, 0, "multisine at 60 Hz");
+  const std::size_t record = RecordNamed(c, "multisine at 60 Hz");
+  Scenario& scenario = c.records[record].scenario;
+  const Scenario written = scenario;
+  scenario.excitations.back().amplitude *= 0.625;
+  Hypothesis truth;
+  truth.rig = RadialRig();
+  c = testing::MeasuredBy(truth, c);
+  c.records[record].scenario = written;
+  std::vector<DataFault> faults;
+  CheckController(CaseModel(c), record, {}, faults);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "scenario");
+  EXPECT_EQ(faults[0].detail, "its multisine at " + written.excitations.back().target +
+                                  " was 0.625 times what the scenario says");
+}
+
 TEST(GateController, CommandsThatAreLateAreTheClockOfTheRecord) {
   const auto late = [](double rows) {
     return ControllerFaults(CommandedOtherwise([&](Excitation& e) {

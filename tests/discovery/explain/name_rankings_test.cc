@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -55,6 +57,24 @@ TEST(NameRankings, RivalsAreTheOpenNamesOfTheOwnRoundAndTheNearOnesOfOthers) {
   // of the second one: the gain at B.y is open there; 2.05 lies within a twentieth of 2
   EXPECT_THAT(RivalNames(names.RivalsOf(adopted, 1)),
               ElementsAre("sensor-offset at A.x", "sensor-gain at B.y"));
+}
+
+// Beside another effect the laws of both are fitted again, and one of them follows the iron's curve
+// far worse.
+TEST(NameRankings, NamesThatShareACurveKeepTheirOdds) {
+  RankedEffect nearer = NameOf("iron-reluctance", "A", 0.8, 1.6),
+               other = NameOf("saturation", "A", 0.2, 7.5);
+  for (RankedEffect* r : {&nearer, &other}) r->shares_curve = true;
+  NameRankings names;
+  names.NoteRound(0, {nearer, other, NameOf("hysteresis", "A", 0.0, 2.6)});
+  std::vector<RankedEffect> again = {NameOf("iron-reluctance", "A", 0, 1.5),
+                                     NameOf("hysteresis", "A", 0, 2.6),
+                                     NameOf("saturation", "A", 0, 7.5)};
+  again[0].score = 100, again[1].score = 300, again[2].score = 900;
+  EXPECT_TRUE(names.KeepSharedCurve(again));
+  EXPECT_NEAR(again[2].score, 100 + 2 * std::log(4), 1e-9);
+  EXPECT_EQ(again[1].score, 300);
+  EXPECT_FALSE(names.KeepSharedCurve(again));
 }
 
 TEST(NameRankings, AnEffectOfItsOwnChannelsHasRivalsAtItsPlaceOnly) {

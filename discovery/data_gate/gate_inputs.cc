@@ -1,5 +1,5 @@
-// Loads that acted otherwise than the scenario of their record states: with another direction or at
-// other instants.
+// Inputs that acted otherwise than the scenario of their record states: loads with another direction
+// or at other instants, commands of another size.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -9,31 +9,39 @@
 
 #include "core/math/linear_equations.h"
 #include "core/record/channels.h"
+#include "discovery/data_gate/command_sizes.h"
 #include "discovery/data_gate/gate_checks.h"
+#include "discovery/data_gate/program_error.h"
 #include "discovery/model/record_rows.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr double kOfThisRecord = 0.3;      // error over movement that the other records may show
-constexpr double kOtherLoadsLeave = 0.15;  // of the error (rms), at most
-constexpr double kLongestMove = 0.05;      // [s] of an edge of a load
-constexpr double kCoarseMove = 1e-3;       // [s]
-constexpr double kLeastMove = 2e-3;        // [s]: less is a matter of the clock
+constexpr double kOfThisRecord = 0.3;  // error over movement that the other records may show
+constexpr double kPlainError = 3, kNoise = 1.15;  // floors: of a reading, of what is left
+constexpr double kMoreOfCommand = 0.1;            // by which a command is changed
+constexpr double kOtherInputsLeave = 0.15;        // of the error (rms), at most
+constexpr double kLongestMove = 0.05;             // [s] of an edge of a load
+constexpr double kCoarseMove = 1e-3;              // [s]
+constexpr double kLeastMove = 2e-3;               // [s]: less is a matter of the clock
 constexpr double kTurned = 0.87;  // cosine of the angle from which on a direction is another
+constexpr double kRidge = 1e-12;
 constexpr int kSweeps = 3;
 constexpr std::size_t kMostRows = 2000;  // of a search: longer records are thinned
 
 bool IsPosition(const GateColumn& c) { return IsOfKind(c.name, ChannelKind::kReading); }
 
-/// Error of the readings over their movement, rms; 0: there are none that move.
+/// Error of the readings above their noise over their movement, rms; -1: there are none that
+/// move.
 double ReadingsError(const std::vector<GateColumn>& columns) {
   double sum = 0, n = 0;
   for (const GateColumn& c : columns)
     if (IsPosition(c) && c.match.predicted_move > kMoves)
-      sum += std::pow(c.match.error / c.match.predicted_move, 2), n += 1;
-  return n > 0 ? std::sqrt(sum / n) : 0;
+      sum += std::max(0.0, std::pow(c.match.error, 2) - kNoise * kNoise) /
+             std::pow(c.match.predicted_move, 2),
+          n += 1;
+  return n > 0 ? std::sqrt(sum / n) : -1;
 }
 
 /// Force and edges of a load [N], [s].
@@ -41,32 +49,41 @@ struct ActingLoad {
   double fx = 0, fy = 0, start = 0, stop = 0;
 };
 
-/// The readings of a record, thinned, and how they answer to the loads of its scenario. All values
-/// in floors; the readings stand one behind the other.
-class LoadTrial {
+/// The readings of a record, thinned, and how they answer to the loads and the commands of its
+/// scenario. All values in floors; the readings stand one behind the other.
+class InputTrials {
  public:
-  LoadTrial(const CaseModel& model, const Hypothesis& h, std::size_t record,
-            const std::vector<GateColumn>& columns);
+  InputTrials(const CaseModel& model, const Hypothesis& h, std::size_t record,
+              const std::vector<GateColumn>& columns);
 
   const std::vector<ActingLoad>& stated() const { return stated_; }
   double step() const { return step_; }
-  double before() const { return error_.norm(); }
-  /// The forces with these edges that leave the least error, which is returned [floors].
-  double Fit(std::vector<ActingLoad>& loads) const;
+  /// rms of the error [floors].
+  double before() const { return Rms(error_.squaredNorm()); }
+  /// Sizes of the commands beside the last loads that were fitted [-].
+  const std::vector<double>& sizes() const { return sizes_; }
+  /// The forces with these edges, and the sizes of the commands, that leave the least error: its
+  /// rms [floors].
+  double Fit(std::vector<ActingLoad>& loads);
 
  private:
   Eigen::VectorXd Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
                          const ActingLoad& acting) const;
+  double Rms(double square) const {
+    return std::sqrt(std::max(0.0, square) / static_cast<double>(error_.size()));
+  }
   Eigen::Index rows_ = 0, readings_ = 0;
   double step_ = 0;                // [s] between rows
   Eigen::VectorXd error_, moved_;  // measured less predicted, without and with the stated loads
   std::vector<ActingLoad> stated_;
   // of each load along x and y: to a step of 1 N that begins with the load and stays
   std::vector<Eigen::VectorXd> steps_;
+  std::vector<Eigen::VectorXd> commands_;  // to each excitation once more; empty: not sought
+  std::vector<double> sizes_;
 };
 
-LoadTrial::LoadTrial(const CaseModel& model, const Hypothesis& h, std::size_t record,
-                     const std::vector<GateColumn>& columns) {
+InputTrials::InputTrials(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                         const std::vector<GateColumn>& columns) {
   Case alone = model.data();
   alone.records = {model.data().records[record]};
   const CaseRecord& r = alone.records[0];
@@ -115,11 +132,20 @@ LoadTrial::LoadTrial(const CaseModel& model, const Hypothesis& h, std::size_t re
       moved_ += (along_x ? load.fx : load.fy) * Answer(steps_.back(), stated_[l], stated_[l]);
     }
   }
+  // the controller's own program tells the commands better
+  if (HasControllerBlock(alone.rig, r.scenario, r.data) &&
+      !ControllerAxes(alone.rig, r.scenario, ControllerRecord(r.data)).empty())
+    return;
+  for (std::size_t e = 0; e < r.scenario.excitations.size(); ++e) {
+    Scenario more = r.scenario;
+    more.excitations[e].amplitude *= 1 + kMoreOfCommand;
+    commands_.push_back((simulated(more) - base) / kMoreOfCommand);
+  }
 }
 
 /// To 1 N between the edges of `acting`; `step_answer` begins with `stated`.
-Eigen::VectorXd LoadTrial::Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
-                                  const ActingLoad& acting) const {
+Eigen::VectorXd InputTrials::Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
+                                    const ActingLoad& acting) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(step_answer.size());
   for (const auto& [edge, sign] : {std::pair{acting.start, 1.0}, std::pair{acting.stop, -1.0}}) {
     const Eigen::Index late = std::lround((edge - stated.start) / step_);
@@ -130,21 +156,29 @@ Eigen::VectorXd LoadTrial::Answer(const Eigen::VectorXd& step_answer, const Acti
   return out;
 }
 
-double LoadTrial::Fit(std::vector<ActingLoad>& loads) const {
-  Eigen::MatrixXd answers(moved_.size(), static_cast<Eigen::Index>(steps_.size()));
-  for (std::size_t k = 0; k < steps_.size(); ++k)
+double InputTrials::Fit(std::vector<ActingLoad>& loads) {
+  const std::size_t steps = steps_.size();
+  Eigen::MatrixXd answers(moved_.size(), static_cast<Eigen::Index>(steps + commands_.size()));
+  for (std::size_t k = 0; k < steps; ++k)
     answers.col(static_cast<Eigen::Index>(k)) = Answer(steps_[k], stated_[k / 2], loads[k / 2]);
+  for (std::size_t e = 0; e < commands_.size(); ++e)
+    answers.col(static_cast<Eigen::Index>(steps + e)) = commands_[e];
   const Eigen::VectorXd with_error = answers.transpose() * moved_;
-  const Eigen::VectorXd forces = SolveSymmetric(answers.transpose() * answers, with_error);
+  Eigen::MatrixXd normal = answers.transpose() * answers;
+  normal.diagonal().array() += kRidge * normal.trace();               // of inputs that move nothing
+  const Eigen::VectorXd forces = SolveSymmetric(normal, with_error);  // and more of each command
   for (std::size_t l = 0; l < loads.size(); ++l) {
     loads[l].fx = forces(static_cast<Eigen::Index>(2 * l));
     loads[l].fy = forces(static_cast<Eigen::Index>(2 * l + 1));
   }
-  return std::sqrt(std::max(0.0, moved_.squaredNorm() - forces.dot(with_error)));
+  sizes_.clear();
+  for (std::size_t e = 0; e < commands_.size(); ++e)
+    sizes_.push_back(1 + forces(static_cast<Eigen::Index>(steps + e)));
+  return Rms(moved_.squaredNorm() - forces.dot(with_error));
 }
 
 /// Forces and edges, one edge after the other.
-double Seek(const LoadTrial& trial, std::vector<ActingLoad>& loads) {
+double Seek(InputTrials& trial, std::vector<ActingLoad>& loads) {
   double least = trial.Fit(loads);
   const auto try_edge = [&](std::size_t l, double ActingLoad::*edge, double to) {
     std::vector<ActingLoad> tried = loads;
@@ -162,7 +196,7 @@ double Seek(const LoadTrial& trial, std::vector<ActingLoad>& loads) {
         for (double move = -kCoarseMove; move <= kCoarseMove; move += trial.step())
           try_edge(l, edge, middle + move);
       }
-  return least;
+  return trial.Fit(loads);
 }
 
 /// Whether a load is another one than stated. A force of the same direction and time is not: what
@@ -174,6 +208,15 @@ bool ActsOtherwise(const ActingLoad& stated, const ActingLoad& acting) {
          std::abs(acting.stop - stated.stop) > kLeastMove;
 }
 
+/// Whether commands had another size, not all of them the same: that a fit of the record's input
+/// finds, and a rig of another gain shows.
+bool CommandedOtherwise(const std::vector<double>& sizes) {
+  constexpr double kOtherSize = 0.25;
+  if (sizes.empty()) return false;
+  const auto [least, most] = std::ranges::minmax(sizes);
+  return most - least > kOtherSize;
+}
+
 std::string LoadsText(const std::vector<ActingLoad>& loads) {
   std::string out;
   for (std::size_t l = 0; l < loads.size(); ++l)
@@ -183,9 +226,10 @@ std::string LoadsText(const std::vector<ActingLoad>& loads) {
   return out;
 }
 
-/// Whether the loads of a record can be told from its readings.
-bool HasLoads(const CaseRecord& r) {
-  return OverTime(r) && r.scenario.start == StartState::kLevitated && !r.scenario.loads.empty() &&
+/// Whether the inputs of a record can be told from its readings.
+bool HasInputs(const CaseRecord& r) {
+  return OverTime(r) && r.scenario.start == StartState::kLevitated &&
+         !(r.scenario.loads.empty() && r.scenario.excitations.empty()) &&
          r.scenario.faults.empty() && r.imposed == Imposed::kNothing &&
          std::ranges::all_of(r.scenario.loads, [](const LoadSpec& l) {
            return !l.axial && std::hypot(l.fx, l.fy) > 0;
@@ -194,10 +238,10 @@ bool HasLoads(const CaseRecord& r) {
 
 }  // namespace
 
-void CheckLoads(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
-                std::vector<DataFault>& out) {
+void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
+                 std::vector<DataFault>& out) {
   const std::size_t records = model.data().records.size();
-  if (std::ranges::none_of(model.data().records, HasLoads)) return;
+  if (std::ranges::none_of(model.data().records, HasInputs)) return;
   std::vector<std::vector<GateColumn>> columns(records);
   std::vector<double> errors;
   for (std::size_t r = 0; r < records; ++r) {
@@ -207,21 +251,23 @@ void CheckLoads(const CaseModel& model, const std::vector<double>& predicted, co
   for (std::size_t r = 0; r < columns.size(); ++r) {
     const CaseRecord& record = model.data().records[r];
     const bool gross = std::ranges::any_of(columns[r], [](const GateColumn& c) {
-      return IsPosition(c) && c.match.error > kGrossError;
+      return IsPosition(c) && c.match.error > kPlainError;
     });
-    double others = 0;
+    double others = -1;
     for (std::size_t k = 0; k < errors.size(); ++k)
       if (k != r) others = std::max(others, errors[k]);
-    if (!HasLoads(record) || !gross || others <= 0 || others > kOfThisRecord * errors[r]) continue;
-    const LoadTrial trial(model, h, r, columns[r]);
+    if (!HasInputs(record) || !gross || others < 0 || others > kOfThisRecord * errors[r]) continue;
+    InputTrials trial(model, h, r, columns[r]);
     std::vector<ActingLoad> loads = trial.stated();
-    const double left = Seek(trial, loads) / trial.before();
-    bool otherwise = false;
+    const double left = Seek(trial, loads);
+    bool otherwise = CommandedOtherwise(trial.sizes());
     for (std::size_t l = 0; l < loads.size(); ++l)
       otherwise = otherwise || ActsOtherwise(trial.stated()[l], loads[l]);
-    if (!(left < kOtherLoadsLeave) || !otherwise) continue;
-    DataFault f = FaultLeaving(record, "", "scenario", left);
+    if (!(left < std::max(kOtherInputsLeave * trial.before(), kNoise)) || !otherwise) continue;
+    DataFault f = FaultLeaving(record, "", "scenario", left / trial.before());
     f.detail = LoadsText(loads);
+    if (const std::string sizes = CommandSizesText(record.scenario, trial.sizes()); !sizes.empty())
+      f.detail += (f.detail.empty() ? "" : "; ") + sizes;
     TellScenario(f, out);
   }
 }

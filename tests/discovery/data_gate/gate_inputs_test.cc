@@ -1,6 +1,6 @@
 // Loads that acted otherwise than their scenario states are told with what acted; what the rig does
 // under its loads is left to the fits.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <functional>
 #include <utility>
@@ -40,24 +40,48 @@ void ExpectLoad(const Case& c, const std::string& force_and_edges) {
   EXPECT_NE(faults[0].detail.find(force_and_edges), std::string::npos) << faults[0].detail;
 }
 
-TEST(GateLoads, AnotherDirection) {
+TEST(GateInputs, AnotherDirection) {
   ExpectLoad(LoadedOtherwise([](LoadSpec& l) { std::swap(l.fx, l.fy); }),
              "its loads were rather force = [");
 }
 
-TEST(GateLoads, AnotherInstant) {
+TEST(GateInputs, AnotherInstant) {
   ExpectLoad(LoadedOtherwise([](LoadSpec& l) { l.start -= 0.02; }), "start = 0.155, stop = 0.234");
 }
 
-TEST(GateLoads, AnotherSizeIsLeftToTheFits) {
+TEST(GateInputs, AnotherSizeIsLeftToTheFits) {
   for (const double size : {0.5, 0.7, 1.3})
     for (const DataFault& f :
          FaultsOf(LoadedOtherwise([&](LoadSpec& l) { l.fx *= size, l.fy *= size; })))
       ADD_FAILURE() << size << ": " << FaultText(f);
 }
 
+// Without set-points the controller's program tells nothing of the commands.
+TEST(GateInputs, ACommandOfAnotherSize) {
+  const char* kSines = "multisine at 60 Hz";
+  Case c = Measured({}, 0, kSines);
+  CaseRecord& r = c.records[RecordNamed(c, kSines)];
+  for (std::size_t k = r.data.channels.size(); k-- > 0;) {
+    if (!r.data.channels[k].name.starts_with("A.s") && !r.data.channels[k].name.starts_with("B.s"))
+      continue;
+    r.data.channels.erase(r.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
+    r.quality.erase(r.quality.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  const Scenario written = r.scenario;
+  r.scenario.excitations.back().amplitude *= 0.5;
+  Hypothesis truth;
+  truth.rig = RadialRig();
+  c = testing::MeasuredBy(truth, c);
+  c.records[RecordNamed(c, kSines)].scenario = written;
+  const std::vector<DataFault> faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "scenario") << FaultText(faults[0]);
+  EXPECT_THAT(faults[0].detail,
+              ::testing::HasSubstr(written.excitations.back().target + " was 0."));
+}
+
 // A sideways answer to a load is that of the rig.
-TEST(GateLoads, ARigWithCrossCouplingIsLoadedAsStated) {
+TEST(GateInputs, ARigWithCrossCouplingIsLoadedAsStated) {
   EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
   cross.values[0] = 1e5;
   for (const DataFault& f : FaultsOf(Measured({cross}, 0, "multisine at 60 Hz")))
