@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "effects/catalogue.h"
+#include "tests/discovery/data_gate/gate_case.h"
 #include "tests/discovery/explain/search_parts.h"
 
 namespace ambrig {
@@ -45,6 +47,36 @@ TEST_F(NoZerosOfRecords, AreNotTried) {
   EXPECT_FALSE(nuisances_.Try(now, 0.5, false).has_value());
   EXPECT_FALSE(models_.full().nuisances.any());
   EXPECT_TRUE(log_.ladder.empty());
+}
+
+/// Three records of a free rotor and one of a held one, with a load at A that the model lacks.
+Case UnderALoad() {
+  EffectInstance load = MakeInstance(EffectNamed("constant-load"), "A");
+  load.Set("fx", 6);
+  load.Set("fy", -4);
+  std::vector<ExaminationRecord> chosen;
+  for (const ExaminationRecord& r : Examination(testing::RadialRig(), 4))
+    if (r.title == "multisine at rest" || r.title == "multisine at 60 Hz" ||
+        r.title == testing::kStepRecord || r.title == testing::kClampedRecord)
+      chosen.push_back(r);
+  Hypothesis truth;
+  truth.rig = testing::RadialRig();
+  truth.rig.effects = {load};
+  return testing::MeasuredBy(truth, EmptyCase(testing::RadialRig(), chosen));
+}
+
+class LoadedRecords : public testing::SearchParts {
+ protected:
+  LoadedRecords() : SearchParts(UnderALoad()) {}
+};
+
+// The load moves the currents of every free rotor as one zero of a sensor would, which the held
+// rotor does not show.
+TEST_F(LoadedRecords, WhatIsTheSameInAllOfAKindIsLeftToEffects) {
+  FitResult now = models_.FitFrom(nominal_);
+  ASSERT_GT(now.ratio_fit, 1.5);
+  EXPECT_FALSE(nuisances_.Try(now, 0.5, false).has_value());
+  EXPECT_FALSE(models_.full().nuisances.any());
 }
 
 }  // namespace
