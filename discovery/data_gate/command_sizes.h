@@ -20,8 +20,8 @@ struct CommandSizes {
 CommandSizes FindCommandSizes(const RigParameters& rig, const Scenario& scenario,
                               const BridgedRecord& data);
 
-/// "its multisine at B.y was 0.625 times what the scenario says", of the sizes that differ; "" where
-/// none does.
+/// "its multisine at B.y was 0.625 times what the scenario says", of the sizes that differ; ""
+/// where none does.
 std::string CommandSizesText(const Scenario& scenario, const std::vector<double>& sizes);
 
 }  // namespace ambrig

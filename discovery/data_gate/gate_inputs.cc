@@ -1,5 +1,5 @@
-// Inputs that acted otherwise than the scenario of their record states: loads with another direction
-// or at other instants, commands of another size.
+// Inputs that acted otherwise than the scenario of their record states: loads with another
+// direction or at other instants, commands of another size.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -19,12 +19,12 @@ namespace ambrig {
 namespace {
 
 constexpr double kOfThisRecord = 0.3;  // error over movement that the other records may show
-constexpr double kPlainError = 3, kNoise = 1.15;  // floors: of a reading, of what is left
-constexpr double kMoreOfCommand = 0.1;            // by which a command is changed
-constexpr double kOtherInputsLeave = 0.15;        // of the error (rms), at most
-constexpr double kLongestMove = 0.05;             // [s] of an edge of a load
-constexpr double kCoarseMove = 1e-3;              // [s]
-constexpr double kLeastMove = 2e-3;               // [s]: less is a matter of the clock
+constexpr double kPlainError = 3, kOfNoise = 1.15;  // floors: of a reading, of what is left
+constexpr double kMoreOfCommand = 0.1;              // by which a command is changed
+constexpr double kOtherInputsLeave = 0.15;          // of the error (rms), at most
+constexpr double kLongestMove = 0.05;               // [s] of an edge of a load
+constexpr double kCoarseMove = 1e-3;                // [s]
+constexpr double kLeastMove = 2e-3;                 // [s]: less is a matter of the clock
 constexpr double kTurned = 0.87;  // cosine of the angle from which on a direction is another
 constexpr double kRidge = 1e-12;
 constexpr int kSweeps = 3;
@@ -38,7 +38,7 @@ double ReadingsError(const std::vector<GateColumn>& columns) {
   double sum = 0, n = 0;
   for (const GateColumn& c : columns)
     if (IsPosition(c) && c.match.predicted_move > kMoves)
-      sum += std::max(0.0, std::pow(c.match.error, 2) - kNoise * kNoise) /
+      sum += std::max(0.0, std::pow(c.match.error, 2) - kOfNoise * kOfNoise) /
              std::pow(c.match.predicted_move, 2),
           n += 1;
   return n > 0 ? std::sqrt(sum / n) : -1;
@@ -263,7 +263,7 @@ void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, c
     bool otherwise = CommandedOtherwise(trial.sizes());
     for (std::size_t l = 0; l < loads.size(); ++l)
       otherwise = otherwise || ActsOtherwise(trial.stated()[l], loads[l]);
-    if (!(left < std::max(kOtherInputsLeave * trial.before(), kNoise)) || !otherwise) continue;
+    if (!(left < std::max(kOtherInputsLeave * trial.before(), kOfNoise)) || !otherwise) continue;
     DataFault f = FaultLeaving(record, "", "scenario", left / trial.before());
     f.detail = LoadsText(loads);
     if (const std::string sizes = CommandSizesText(record.scenario, trial.sizes()); !sizes.empty())

@@ -25,8 +25,8 @@ constexpr double kMostOfNuisances = 0.9;
 constexpr std::size_t kManyAmounts = 8;
 constexpr std::size_t kTried = 3;  // effects in their place
 
-/// Whether nearly all that amounts explain would be explained by the same amount in all records of a
-/// free rotor, and by one in those of a held rotor: what acts on the rotor is not seen in these.
+/// Whether nearly all that amounts explain would be explained by the same amount in all records of
+/// a free rotor, and by one in those of a held rotor: what acts on the rotor is not seen in these.
 bool AreTheSame(const Case& data, const std::vector<NuisanceFound>& amounts) {
   constexpr double kNearlyAll = 0.9;
   constexpr int kLeastRecords = 3;  // of a free rotor: two may agree by chance
