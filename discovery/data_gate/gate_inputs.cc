@@ -2,17 +2,16 @@
 // direction or at other instants, commands of another size.
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "core/math/linear_equations.h"
 #include "core/record/channels.h"
 #include "discovery/data_gate/command_sizes.h"
 #include "discovery/data_gate/gate_checks.h"
-#include "discovery/data_gate/program_error.h"
-#include "discovery/model/record_rows.h"
+#include "discovery/data_gate/input_trials.h"
 
 namespace ambrig {
 
@@ -20,15 +19,12 @@ namespace {
 
 constexpr double kOfThisRecord = 0.3;  // error over movement that the other records may show
 constexpr double kPlainError = 3, kOfNoise = 1.15;  // floors: of a reading, of what is left
-constexpr double kMoreOfCommand = 0.1;              // by which a command is changed
 constexpr double kOtherInputsLeave = 0.15;          // of the error (rms), at most
 constexpr double kLongestMove = 0.05;               // [s] of an edge of a load
 constexpr double kCoarseMove = 1e-3;                // [s]
 constexpr double kLeastMove = 2e-3;                 // [s]: less is a matter of the clock
 constexpr double kTurned = 0.87;  // cosine of the angle from which on a direction is another
-constexpr double kRidge = 1e-12;
 constexpr int kSweeps = 3;
-constexpr std::size_t kMostRows = 2000;  // of a search: longer records are thinned
 
 bool IsPosition(const GateColumn& c) { return IsOfKind(c.name, ChannelKind::kReading); }
 
@@ -42,139 +38,6 @@ double ReadingsError(const std::vector<GateColumn>& columns) {
              std::pow(c.match.predicted_move, 2),
           n += 1;
   return n > 0 ? std::sqrt(sum / n) : -1;
-}
-
-/// Force and edges of a load [N], [s].
-struct ActingLoad {
-  double fx = 0, fy = 0, start = 0, stop = 0;
-};
-
-/// The readings of a record, thinned, and how they answer to the loads and the commands of its
-/// scenario. All values in floors; the readings stand one behind the other.
-class InputTrials {
- public:
-  InputTrials(const CaseModel& model, const Hypothesis& h, std::size_t record,
-              const std::vector<GateColumn>& columns);
-
-  const std::vector<ActingLoad>& stated() const { return stated_; }
-  double step() const { return step_; }
-  /// rms of the error [floors].
-  double before() const { return Rms(error_.squaredNorm()); }
-  /// Sizes of the commands beside the last loads that were fitted [-].
-  const std::vector<double>& sizes() const { return sizes_; }
-  /// The forces with these edges, and the sizes of the commands, that leave the least error: its
-  /// rms [floors].
-  double Fit(std::vector<ActingLoad>& loads);
-
- private:
-  Eigen::VectorXd Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
-                         const ActingLoad& acting) const;
-  double Rms(double square) const {
-    return std::sqrt(std::max(0.0, square) / static_cast<double>(error_.size()));
-  }
-  Eigen::Index rows_ = 0, readings_ = 0;
-  double step_ = 0;                // [s] between rows
-  Eigen::VectorXd error_, moved_;  // measured less predicted, without and with the stated loads
-  std::vector<ActingLoad> stated_;
-  // of each load along x and y: to a step of 1 N that begins with the load and stays
-  std::vector<Eigen::VectorXd> steps_;
-  std::vector<Eigen::VectorXd> commands_;  // to each excitation once more; empty: not sought
-  std::vector<double> sizes_;
-};
-
-InputTrials::InputTrials(const CaseModel& model, const Hypothesis& h, std::size_t record,
-                         const std::vector<GateColumn>& columns) {
-  Case alone = model.data();
-  alone.records = {model.data().records[record]};
-  const CaseRecord& r = alone.records[0];
-  const std::size_t thin = std::max<std::size_t>(1, r.data.rows() / kMostRows);
-  rows_ = static_cast<Eigen::Index>(r.data.rows() / thin);
-  step_ = static_cast<double>(thin) / r.data.rate;
-  std::vector<const GateColumn*> readings;
-  for (const GateColumn& c : columns)
-    if (IsPosition(c)) readings.push_back(&c);
-  readings_ = static_cast<Eigen::Index>(readings.size());
-  std::vector<std::string> names;
-  for (const GateColumn* c : readings) names.push_back(c->name);
-  const auto simulated = [&](const Scenario& scenario) {
-    Case changed = alone;
-    changed.records[0].scenario = scenario;
-    const Record run = CaseModel(std::move(changed)).Simulated(h, 0, false, 1, names);
-    Eigen::VectorXd out(rows_ * readings_);
-    for (Eigen::Index c = 0; c < readings_; ++c)
-      for (Eigen::Index k = 0; k < rows_; ++k)
-        out(c * rows_ + k) = AtRow(run.Find(names[static_cast<std::size_t>(c)])->samples, run.rate,
-                                   r.data, static_cast<std::size_t>(k) * thin) /
-                             readings[static_cast<std::size_t>(c)]->floor;
-    return out;
-  };
-  const Eigen::VectorXd base = simulated(r.scenario);
-  error_.setZero(rows_ * readings_);
-  for (Eigen::Index c = 0; c < readings_; ++c)
-    for (Eigen::Index k = 0; k < rows_; ++k) {
-      const MatchedColumn& m = readings[static_cast<std::size_t>(c)]->column;
-      const auto at = static_cast<std::size_t>(k) * thin;
-      if (m.ok[at]) error_(c * rows_ + k) = m.measured[at] - base(c * rows_ + k);
-    }
-  moved_ = error_;
-  for (std::size_t l = 0; l < r.scenario.loads.size(); ++l) {
-    const LoadSpec& load = r.scenario.loads[l];
-    stated_.push_back({load.fx, load.fy, load.start, load.stop});
-    const double size = std::hypot(load.fx, load.fy);
-    for (const bool along_x : {true, false}) {
-      Scenario more = r.scenario;
-      LoadSpec added = load;
-      added.fx = along_x ? size : 0;
-      added.fy = along_x ? 0 : size;
-      added.stop = r.scenario.duration;
-      more.loads.push_back(added);
-      steps_.push_back((simulated(more) - base) / size);
-      moved_ += (along_x ? load.fx : load.fy) * Answer(steps_.back(), stated_[l], stated_[l]);
-    }
-  }
-  // the controller's own program tells the commands better
-  if (HasControllerBlock(alone.rig, r.scenario, r.data) &&
-      !ControllerAxes(alone.rig, r.scenario, ControllerRecord(r.data)).empty())
-    return;
-  for (std::size_t e = 0; e < r.scenario.excitations.size(); ++e) {
-    Scenario more = r.scenario;
-    more.excitations[e].amplitude *= 1 + kMoreOfCommand;
-    commands_.push_back((simulated(more) - base) / kMoreOfCommand);
-  }
-}
-
-/// To 1 N between the edges of `acting`; `step_answer` begins with `stated`.
-Eigen::VectorXd InputTrials::Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
-                                    const ActingLoad& acting) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(step_answer.size());
-  for (const auto& [edge, sign] : {std::pair{acting.start, 1.0}, std::pair{acting.stop, -1.0}}) {
-    const Eigen::Index late = std::lround((edge - stated.start) / step_);
-    for (Eigen::Index c = 0; c < readings_; ++c)
-      for (Eigen::Index k = std::max<Eigen::Index>(0, late); k < std::min(rows_, rows_ + late); ++k)
-        out(c * rows_ + k) += sign * step_answer(c * rows_ + k - late);
-  }
-  return out;
-}
-
-double InputTrials::Fit(std::vector<ActingLoad>& loads) {
-  const std::size_t steps = steps_.size();
-  Eigen::MatrixXd answers(moved_.size(), static_cast<Eigen::Index>(steps + commands_.size()));
-  for (std::size_t k = 0; k < steps; ++k)
-    answers.col(static_cast<Eigen::Index>(k)) = Answer(steps_[k], stated_[k / 2], loads[k / 2]);
-  for (std::size_t e = 0; e < commands_.size(); ++e)
-    answers.col(static_cast<Eigen::Index>(steps + e)) = commands_[e];
-  const Eigen::VectorXd with_error = answers.transpose() * moved_;
-  Eigen::MatrixXd normal = answers.transpose() * answers;
-  normal.diagonal().array() += kRidge * normal.trace();               // of inputs that move nothing
-  const Eigen::VectorXd forces = SolveSymmetric(normal, with_error);  // and more of each command
-  for (std::size_t l = 0; l < loads.size(); ++l) {
-    loads[l].fx = forces(static_cast<Eigen::Index>(2 * l));
-    loads[l].fy = forces(static_cast<Eigen::Index>(2 * l + 1));
-  }
-  sizes_.clear();
-  for (std::size_t e = 0; e < commands_.size(); ++e)
-    sizes_.push_back(1 + forces(static_cast<Eigen::Index>(steps + e)));
-  return Rms(moved_.squaredNorm() - forces.dot(with_error));
 }
 
 /// Forces and edges, one edge after the other.
@@ -236,6 +99,22 @@ bool HasInputs(const CaseRecord& r) {
          });
 }
 
+void InspectRecordInputs(const SimulatedReadings& readings, const CaseRecord& record,
+                         std::vector<DataFault>& out) {
+  InputTrials trial(readings);
+  std::vector<ActingLoad> loads = trial.stated();
+  const double left = Seek(trial, loads);
+  bool otherwise = CommandedOtherwise(trial.sizes());
+  for (std::size_t l = 0; l < loads.size(); ++l)
+    otherwise = otherwise || ActsOtherwise(trial.stated()[l], loads[l]);
+  if (!(left < std::max(kOtherInputsLeave * trial.before(), kOfNoise)) || !otherwise) return;
+  DataFault f = FaultLeaving(record, "", "scenario", left / trial.before());
+  f.detail = LoadsText(loads);
+  if (const std::string sizes = CommandSizesText(record.scenario, trial.sizes()); !sizes.empty())
+    f.detail += (f.detail.empty() ? "" : "; ") + sizes;
+  TellScenario(f, out);
+}
+
 }  // namespace
 
 void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
@@ -257,18 +136,11 @@ void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, c
     for (std::size_t k = 0; k < errors.size(); ++k)
       if (k != r) others = std::max(others, errors[k]);
     if (!HasInputs(record) || !gross || others < 0 || others > kOfThisRecord * errors[r]) continue;
-    InputTrials trial(model, h, r, columns[r]);
-    std::vector<ActingLoad> loads = trial.stated();
-    const double left = Seek(trial, loads);
-    bool otherwise = CommandedOtherwise(trial.sizes());
-    for (std::size_t l = 0; l < loads.size(); ++l)
-      otherwise = otherwise || ActsOtherwise(trial.stated()[l], loads[l]);
-    if (!(left < std::max(kOtherInputsLeave * trial.before(), kOfNoise)) || !otherwise) continue;
-    DataFault f = FaultLeaving(record, "", "scenario", left / trial.before());
-    f.detail = LoadsText(loads);
-    if (const std::string sizes = CommandSizesText(record.scenario, trial.sizes()); !sizes.empty())
-      f.detail += (f.detail.empty() ? "" : "; ") + sizes;
-    TellScenario(f, out);
+    try {
+      InspectRecordInputs(SimulatedReadings(model, h, r, columns[r]), record, out);
+    } catch (const std::runtime_error&) {
+      continue;  // the model loses its rotor under another input
+    }
   }
 }
 
