@@ -11,7 +11,7 @@
 #include "core/record/channels.h"
 #include "discovery/data_gate/command_sizes.h"
 #include "discovery/data_gate/gate_checks.h"
-#include "discovery/data_gate/input_trials.h"
+#include "discovery/data_gate/input_answers.h"
 
 namespace ambrig {
 
@@ -41,25 +41,25 @@ double ReadingsError(const std::vector<GateColumn>& columns) {
 }
 
 /// Forces and edges, one edge after the other.
-double Seek(InputTrials& trial, std::vector<ActingLoad>& loads) {
-  double least = trial.Fit(loads);
+double Seek(InputAnswers& inputs, std::vector<ActingLoad>& loads) {
+  double least = inputs.Fit(loads);
   const auto try_edge = [&](std::size_t l, double ActingLoad::*edge, double to) {
     std::vector<ActingLoad> tried = loads;
     tried[l].*edge = to;
     if (!(tried[l].start < tried[l].stop)) return;
-    if (const double left = trial.Fit(tried); left < least) least = left, loads = tried;
+    if (const double left = inputs.Fit(tried); left < least) least = left, loads = tried;
   };
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t l = 0; l < loads.size(); ++l)
       for (double ActingLoad::*edge : {&ActingLoad::start, &ActingLoad::stop}) {
-        const double stated = trial.stated()[l].*edge;
+        const double stated = inputs.stated()[l].*edge;
         for (double move = -kLongestMove; move <= kLongestMove; move += kCoarseMove)
           try_edge(l, edge, stated + move);
         const double middle = loads[l].*edge;
-        for (double move = -kCoarseMove; move <= kCoarseMove; move += trial.step())
+        for (double move = -kCoarseMove; move <= kCoarseMove; move += inputs.step())
           try_edge(l, edge, middle + move);
       }
-  return trial.Fit(loads);
+  return inputs.Fit(loads);
 }
 
 /// Whether a load is another one than stated. A force of the same direction and time is not: what
@@ -101,16 +101,16 @@ bool HasInputs(const CaseRecord& r) {
 
 void InspectRecordInputs(const SimulatedReadings& readings, const CaseRecord& record,
                          std::vector<DataFault>& out) {
-  InputTrials trial(readings);
-  std::vector<ActingLoad> loads = trial.stated();
-  const double left = Seek(trial, loads);
-  bool otherwise = CommandedOtherwise(trial.sizes());
+  InputAnswers inputs(readings);
+  std::vector<ActingLoad> loads = inputs.stated();
+  const double left = Seek(inputs, loads);
+  bool otherwise = CommandedOtherwise(inputs.sizes());
   for (std::size_t l = 0; l < loads.size(); ++l)
-    otherwise = otherwise || ActsOtherwise(trial.stated()[l], loads[l]);
-  if (!(left < std::max(kOtherInputsLeave * trial.before(), kOfNoise)) || !otherwise) return;
-  DataFault f = FaultLeaving(record, "", "scenario", left / trial.before());
+    otherwise = otherwise || ActsOtherwise(inputs.stated()[l], loads[l]);
+  if (!(left < std::max(kOtherInputsLeave * inputs.before(), kOfNoise)) || !otherwise) return;
+  DataFault f = FaultLeaving(record, "", "scenario", left / inputs.before());
   f.detail = LoadsText(loads);
-  if (const std::string sizes = CommandSizesText(record.scenario, trial.sizes()); !sizes.empty())
+  if (const std::string sizes = CommandSizesText(record.scenario, inputs.sizes()); !sizes.empty())
     f.detail += (f.detail.empty() ? "" : "; ") + sizes;
   TellScenario(f, out);
 }

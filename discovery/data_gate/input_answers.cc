@@ -1,4 +1,4 @@
-#include "discovery/data_gate/input_trials.h"
+#include "discovery/data_gate/input_answers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ Eigen::VectorXd SimulatedReadings::ErrorOf(const Eigen::VectorXd& predicted) con
   return counts.cwiseProduct(measured - predicted);
 }
 
-InputTrials::InputTrials(const SimulatedReadings& readings) : readings_(readings) {
+InputAnswers::InputAnswers(const SimulatedReadings& readings) : readings_(readings) {
   const Scenario& scenario = readings.scenario();
   const Eigen::VectorXd base = readings.Under(scenario);
   moved_ = error_ = readings.ErrorOf(base);
@@ -88,8 +88,8 @@ InputTrials::InputTrials(const SimulatedReadings& readings) : readings_(readings
 }
 
 /// To 1 N between the edges of `acting`; `step_answer` begins with `stated`.
-Eigen::VectorXd InputTrials::Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
-                                    const ActingLoad& acting) const {
+Eigen::VectorXd InputAnswers::Answer(const Eigen::VectorXd& step_answer, const ActingLoad& stated,
+                                     const ActingLoad& acting) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(step_answer.size());
   const Index rows = readings_.rows();
   for (const auto& [edge, sign] : {std::pair{acting.start, 1.0}, std::pair{acting.stop, -1.0}}) {
@@ -103,7 +103,7 @@ Eigen::VectorXd InputTrials::Answer(const Eigen::VectorXd& step_answer, const Ac
   return out;
 }
 
-double InputTrials::Fit(std::vector<ActingLoad>& loads) {
+double InputAnswers::Fit(std::vector<ActingLoad>& loads) {
   const std::size_t steps = steps_.size();
   Eigen::MatrixXd answers(moved_.size(), static_cast<Eigen::Index>(steps + commands_.size()));
   for (std::size_t k = 0; k < steps; ++k)

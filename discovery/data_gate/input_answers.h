@@ -45,10 +45,10 @@ class SimulatedReadings {
 };
 
 /// How the readings of a record answer to the loads and the commands of its scenario.
-class InputTrials {
+class InputAnswers {
  public:
   /// @throws std::runtime_error where the model loses its rotor under one of them.
-  explicit InputTrials(const SimulatedReadings& readings);
+  explicit InputAnswers(const SimulatedReadings& readings);
 
   const std::vector<ActingLoad>& stated() const { return stated_; }
   double step() const { return readings_.step(); }
