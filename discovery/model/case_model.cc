@@ -18,6 +18,10 @@ namespace {
 
 constexpr double kBeforeLoss = 0.015;  // [s] between the last row that counts and the loss
 constexpr double kLeastHeld = 0.05;    // [s] of a record that are worth comparing
+constexpr double kCoarseSamples = 6;   // of the current, in a switching period
+// [s] before t = 0, half of what a levitated run has: what is left of the start is nearly the same
+// in two coarse runs, which are compared with each other only.
+constexpr double kCoarseWarmUp = 0.125;
 
 }  // namespace
 
@@ -148,14 +152,16 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.recorded_channels = channels;
   options.recorded_rows = rows;
   options.watch = false;
-  if (IsCoarse(h.rig, case_.rig) && r.scenario.start == StartState::kLevitated)
-    options.warm_up = kCoarseWarmUp;
+  const bool coarse =
+      h.rig.amplifier.adc_samples_per_period < case_.rig.amplifier.adc_samples_per_period;
+  if (coarse && r.scenario.start == StartState::kLevitated) options.warm_up = kCoarseWarmUp;
   RigParameters drawing = case_.rig;
   drawing.amplifier.adc_samples_per_period = h.rig.amplifier.adc_samples_per_period;
   const NominalRig nominal(drawing);
   options.nominal = &nominal;
   scenario.duration = std::min(scenario.duration, std::max(horizon_[record], 1 / r.data.rate));
-  // A hypothesis that drops a rotor which the measured rig held explains nothing: no bouncing.
+  // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it
+  // bounce.
   if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty() && !touches_[record])
     options.lost_after = 0.01;
   Record again;  // what a second measurement would have driven with
