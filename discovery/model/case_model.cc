@@ -19,9 +19,6 @@ namespace {
 constexpr double kBeforeLoss = 0.015;  // [s] between the last row that counts and the loss
 constexpr double kLeastHeld = 0.05;    // [s] of a record that are worth comparing
 constexpr double kCoarseSamples = 6;   // of the current, in a switching period
-// [s] before t = 0, half of what a levitated run has: what is left of the start is nearly the same
-// in two coarse runs, which are compared with each other only.
-constexpr double kCoarseWarmUp = 0.125;
 
 }  // namespace
 
@@ -152,9 +149,6 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.recorded_channels = channels;
   options.recorded_rows = rows;
   options.watch = false;
-  const bool coarse =
-      h.rig.amplifier.adc_samples_per_period < case_.rig.amplifier.adc_samples_per_period;
-  if (coarse && r.scenario.start == StartState::kLevitated) options.warm_up = kCoarseWarmUp;
   RigParameters drawing = case_.rig;
   drawing.amplifier.adc_samples_per_period = h.rig.amplifier.adc_samples_per_period;
   const NominalRig nominal(drawing);

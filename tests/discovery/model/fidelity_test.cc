@@ -50,8 +50,7 @@ TEST_F(FidelityTest, CoarseSensitivitiesOfRigParametersErrByLittle) {
 }
 
 TEST_F(FidelityTest, CoarseSignaturesOfEffectsErrByLittle) {
-  for (const char* name :
-       {"eddy-currents", "iron-reluctance", "saturation", "fringing", "constant-load"}) {
+  for (const char* name : {"eddy-currents", "iron-reluctance", "saturation", "fringing"}) {
     Hypothesis with = base_;
     EffectInstance e = MakeInstance(EffectNamed(name), "A");
     for (std::size_t k = 0; k < e.values.size(); ++k)
