@@ -53,7 +53,8 @@ void CoilProbe::WatchOthers(const SlopeExcess& e) {
     const double top = e.top[0][j] + e.top[1][j], bottom = e.bottom[0][j] + e.bottom[1][j];
     const bool gross =
         j != coil_ && bottom > kJudgedWeight && std::abs(top) > ExcessLimits::kGross * bottom;
-    gross_[j] = gross ? gross_[j] + 1 : 0;
+    calm_[j] = calm_[j] || !gross;
+    gross_[j] = gross && calm_[j] ? gross_[j] + 1 : 0;
     if (gross_[j] >= kInARow && answer_ == ProbeAnswer::kNone) answer_ = ProbeAnswer::kInterrupted;
   }
 }

@@ -12,6 +12,7 @@ constexpr double kLeastProbeBand = 0.08, kOfGivenUp = 0.5;  // of |c| that it wa
 constexpr double kLeastLoop = 0.3;  // of the turns by the ripple: less does no harm, whatever it is
 // Slopes over healthy ones, of what a loop that keeps all flux out of its pole makes of them
 constexpr double kLeastOfLoop = 0.6, kMostOfLoop = 2.5;
+constexpr int kBeforeProbe = 3;                   // window of 40 periods
 constexpr int kAfterProbe = 8, kAfterShare = 25;  // periods
 
 }  // namespace
@@ -93,6 +94,15 @@ void CommissionedDetector::BeginProbe(int coil, double given_up) {
   probe_.Begin(coil, idle, band);
   filter_.SetTurns(coil, share(coil) > 0 ? share(coil) : 1);
   decision_.ForgetStreaks();
+}
+
+bool CommissionedDetector::OtherFails(int coil) const {
+  const Lane before = Excess(kBeforeProbe);
+  for (int j = 0; j < filter_.nominal().coils && model_.usable(); ++j)
+    if (j != coil && share(j) > 0 && std::abs(ratios_.now()[j]) > ExcessLimits::kGross &&
+        std::abs(before[j]) < ExcessLimits::kGross)
+      return true;
+  return false;
 }
 
 Diagnosis CommissionedDetector::EndProbe(double t) {

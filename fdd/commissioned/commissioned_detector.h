@@ -32,6 +32,8 @@ class CommissionedDetector : public CoilDetector {
   /// no coil is judged. `given_up`: c that it was given up for, which a healthy coil must be well
   /// below; 0: not for its c [-].
   void BeginProbe(int coil, double given_up = 0);
+  /// Whether a coil beside `coil` has just become gross, and is to be judged before a probe begins.
+  bool OtherFails(int coil) const;
   /// What it showed of a coil that had turns: no current, or a gross short; else class none.
   Diagnosis EndProbe(double t);
   const CoilProbe& probe() const { return probe_; }

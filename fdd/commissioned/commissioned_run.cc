@@ -78,6 +78,7 @@ void CommissionedRun::SetTurns(int coil, double share) {
 }
 
 bool CommissionedRun::BeginProbe(int coil) {
+  if (watch_.OtherFails(coil)) return false;
   watch_.BeginProbe(coil, share_[coil] > 0 ? 0 : given_up_[coil]);
   return true;
 }

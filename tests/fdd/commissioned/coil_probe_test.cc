@@ -68,6 +68,10 @@ TEST(CoilProbe, EndsWhenAnotherCoilFails) {
   EXPECT_EQ(probe.answer(), ProbeAnswer::kNone);
   probe.WatchOthers(e);
   EXPECT_EQ(probe.answer(), ProbeAnswer::kInterrupted);
+  // What was gross from the start is an error of the circuit: it says nothing new.
+  probe.Begin(kProbed, 0, 0.2);
+  for (int n = 0; n < 5; ++n) probe.WatchOthers(e);
+  EXPECT_EQ(probe.answer(), ProbeAnswer::kNone);
 }
 
 // Neighbours that switch with it give an open coil right slopes.
