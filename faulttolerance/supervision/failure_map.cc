@@ -19,45 +19,57 @@ constexpr double kMostMargin = 100;
 // The integrator of the position loop: of the missing force in one step, steps
 constexpr double kIntegrates = 0.5;
 constexpr int kMostSteps = 60;
+constexpr double kLeastMapGain = 0.1;  // of a map, over that of the healthy bearing
 
 bool Within(const Eigen::Vector2d& force, double most) {
   return force.cwiseAbs().maxCoeff() <= most;
 }
 
 /// The network's force for forces that are wanted one after the other. A force by force inverse is
-/// commanded what is wanted. The command of a matrix is what the position loop's integrator makes
-/// it, within what commands are limited to: a linearised one has another gain than that of the
-/// healthy bearing, and where its gain has another sign the integrator finds no command.
+/// commanded what is wanted. At the load the command of a matrix is what the position loop's
+/// integrator makes it, within what commands are limited to: a linearised one has another gain than
+/// that of the healthy bearing, and where its gain has another sign the integrator finds no
+/// command. From there on the command goes with the map's gain at the load.
 class Pull {
  public:
   Pull(const RedistributionProblem& left, const CurrentMap& map, const Eigen::Vector2d& load,
        double most)
       : network_(left), map_(map), inverse_(left), load_(load), command_(load), most_(most) {
-    if (!map.allocation) return;
-    by_force_ = true;
-    started_ = inverse_.Start(load);
+    if (map.allocation) {
+      by_force_ = true;
+      started_ = inverse_.Start(load);
+      return;
+    }
+    for (int step = 0; step < kMostSteps; ++step)
+      command_ = (command_ + kIntegrates * (load - Of(command_))).cwiseMax(-most).cwiseMin(most);
+    Eigen::Matrix2d gain;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d by = 0.5 * kStep * Eigen::Vector2d::Unit(axis);
+      gain.col(axis) = (Of(command_ + by) - Of(command_ - by)) / kStep;
+    }
+    started_ = std::abs(gain.determinant()) > kLeastMapGain * kLeastMapGain;
+    if (started_) per_force_ = gain.inverse();
   }
   bool Gives(const Eigen::Vector2d& force) {
-    if (!Within(force, most_) || (by_force_ && !started_)) return false;
+    if (!Within(force, most_) || !started_) return false;
     const double whole = kWrong * std::max(force.norm(), kLeastForce),
                  added = (force - load_).norm(),
                  wrong = added > 0 ? std::min(whole, kTrueAdded * added) : whole;
-    if (by_force_) return (network_.Force(inverse_.Step(force)) - force).norm() <= wrong;
-    for (int step = 0; step < kMostSteps; ++step) {
-      const Eigen::Vector2d missing =
-          force - network_.Force(map_.SetPoints(command_.x(), command_.y()));
-      if (missing.norm() <= wrong) return true;
-      command_ += kIntegrates * missing;
-      command_ = command_.cwiseMax(-most_).cwiseMin(most_);
-    }
-    return false;
+    const Eigen::Vector2d truly = by_force_ ? network_.Force(inverse_.Step(force))
+                                            : Of(command_ + per_force_ * (force - load_));
+    return (truly - force).norm() <= wrong;
   }
 
  private:
+  Eigen::Vector2d Of(const Eigen::Vector2d& command) const {
+    return network_.Force(map_.SetPoints(command.x(), command.y()));
+  }
+
   NetworkForce network_;
   const CurrentMap& map_;
   ForceInverse inverse_;
   Eigen::Vector2d load_, command_;
+  Eigen::Matrix2d per_force_ = Eigen::Matrix2d::Identity();
   double most_;
   bool by_force_ = false, started_ = false;
 };

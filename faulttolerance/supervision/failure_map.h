@@ -30,7 +30,7 @@ struct MapReach {
 };
 
 /// True: every force between is given within 5 % of itself and of 1 N, and what it adds to the load
-/// within half of that, by some command that an integrator finds from the one before. `most`:
+/// within half of that. A matrix gives the load by the command that an integrator finds. `most`:
 /// commands and forces are never larger, per axis [N].
 MapReach ReachOfMap(const RedistributionProblem& left, const CurrentMap& map,
                     const Eigen::Vector2d& load, double most);
