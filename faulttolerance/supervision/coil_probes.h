@@ -1,7 +1,7 @@
 #pragma once
 /// When the coils of one bearing that were given up are looked at again. A small current is asked
-/// of a coil for at most 1.4 ms (fdd/commissioned/coil_probe.h); one that behaves as a healthy coil
-/// does returns. The first look comes 10 ms after the action, two more follow, each after four
+/// of a coil for at most 35 periods (fdd/commissioned/coil_probe.h); one that behaves as a healthy
+/// coil does returns. The first look comes 10 ms after the action, two more follow, each after four
 /// times as long, and one before them, after 2 ms, when the orbit has grown by then: an action that
 /// made it worse is the first to be doubted. A coil that came back once and is given up again is
 /// given up for good.

@@ -22,15 +22,16 @@ std::string MapAfterFailure(const RedistributionTable& table, const CoilVector& 
 /// network says what they pull.
 struct MapReach {
   static constexpr int kDirections = 24;
-  bool carries = false;  // the load itself
+  bool carries = false;  // the load itself, and something beside it in every direction
   double margin = 0;     // largest multiple of the load that is pulled, from it on; 0: no load
   double worst = 0;      // [N] from the load in the worst direction
   int worst_direction = 0;
   double radius[kDirections] = {};  // [N] from the load, direction k at k 15 deg
 };
 
-/// True: every force between is given within 5 % of itself and of 1 N. `most`: commands are never
-/// larger, per axis [N].
+/// True: every force between is given within 5 % of itself and of 1 N, and what it adds to the load
+/// within half of that. A matrix gives the load by the command that an integrator finds. `most`:
+/// commands and forces are never larger, per axis [N].
 MapReach ReachOfMap(const RedistributionProblem& left, const CurrentMap& map,
                     const Eigen::Vector2d& load, double most);
 /// Its margin alone; 0 where the load is not carried, or is none.

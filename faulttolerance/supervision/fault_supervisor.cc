@@ -7,7 +7,6 @@
 
 #include "core/base/coil_name.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
-#include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/stator_settings.h"
 #include "faulttolerance/supervision/watched_bearing.h"
 #include "rig/clearance.h"
@@ -21,7 +20,6 @@ namespace {
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
-constexpr double kFewestTurns = 0.35;  // left of a coil: with fewer its current loop swings
 constexpr double kProbeCurrent = 0.4;  // of a coil's bias current
 constexpr double kCalm = 0.2;          // of the clearance: motion while idle coils are probed
 constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
@@ -105,6 +103,7 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
   if (options_.redistribute) {
     Probe(w, t, in, m.position_loop, control, out);
     if (m.position_loop) TakeOutDerated(w, t, control, out);
+    if (alarm.carrying >= 0) FollowCarried(w, alarm, t, m.position_loop, control, out);
   }
   if (alarm.coil < 0) return;
   const std::string name = CoilName(w.bearing->name, alarm.coil);
@@ -166,59 +165,6 @@ void FaultSupervisor::Refuse(Watched& w, const Diagnosis& d) {
   w.detector->SetTurns(d.coil, w.turns_left[d.coil]);
 }
 
-std::string FaultSupervisor::ClassWithout(Watched& w, int coil, const BearingControl& control) {
-  const CoilVector before = w.turns_left;
-  if (!w.healthy) w.healthy = control.map;
-  CurrentMap map = control.map;
-  CoilVector now = CoilVector::Zero();
-  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
-  w.turns_left[coil] = 0;
-  std::string cls = NewMap(w, CommandedForce(control.map, now), &map);
-  w.turns_left = before;
-  return cls;
-}
-
-bool FaultSupervisor::NothingElseCarries(Watched& w, const DetectorAlarm& alarm,
-                                         const BearingControl& control) {
-  return alarm.diagnosis.cls == FaultClass::kCurrentSensor && alarm.more.empty() && w.mapped &&
-         !w.bearing->kind->eight_poles &&
-         ClassWithout(w, alarm.coil, control) == ToText(SolvabilityClass::kNone);
-}
-
-void FaultSupervisor::TakeOutDerated(Watched& w, double t, const BearingControl& control,
-                                     SupervisorOutput& out) {
-  const int coil = w.probes.MadeWorse(t);
-  if (coil < 0 || !w.mapped || !(w.turns_left[coil] > 0)) return;
-  const auto derated = (w.turns_left.array() > 0 && w.turns_left.array() < 1).count();
-  const std::string cls = derated <= 1 ? ClassWithout(w, coil, control) : "";
-  if (cls != ToText(SolvabilityClass::kExact) && cls != "force by force") return;
-  w.turns_left[coil] = 0;
-  w.detector->SetTurns(coil, 0);
-  out.actions.push_back(DisableCoil{w.index, coil});
-  w.probes.GivenUp(coil, FaultClass::kPartialShort, t);
-  actions_.push_back(
-      {t, CoilName(w.bearing->name, coil), "disable", "the orbit grew when it was derated"});
-  Redistribute(w, t, control, out);
-}
-
-void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out) {
-  const bool lost =
-      d.cls != FaultClass::kPartialShort || w.turns_left[d.coil] * (1 - d.fraction) < kFewestTurns;
-  w.turns_left[d.coil] = lost ? 0 : std::min(1.0, w.turns_left[d.coil] * (1 - d.fraction));
-  if (lost) {
-    if (d.cls == FaultClass::kPartialShort) w.detector->SetTurns(d.coil, 0);
-    out.actions.push_back(DisableCoil{w.index, d.coil});
-    w.probes.GivenUp(d.coil, d.cls, d.time);
-  } else {
-    w.probes.Derated(d.coil, d.time, ClearanceOf(*w.bearing), d.ripple_fraction > d.fraction);
-  }
-  const char* closed = d.ripple_fraction > d.fraction ? ", in a closed loop" : "";
-  actions_.push_back(
-      {d.time, CoilName(w.bearing->name, d.coil), lost ? "disable" : "derate",
-       lost ? ToText(d.cls)
-            : fmt::format("{}, {:.3f} of the turns{}", ToText(d.cls), d.fraction, closed)});
-}
-
 void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
                             const BearingControl& control, SupervisorOutput& out) {
   if (in.comparable) w.probes.Orbit(t, in.x1, in.y1);
@@ -256,7 +202,11 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
   w.detector->EndProbe(healthy, t);
   w.probes.Answer(coil, healthy, t);
   out.actions.push_back(ProbeCoil{w.index, coil, 0});
-  actions_.push_back({t, CoilName(w.bearing->name, coil), "probe", healthy ? "healthy" : "faulty"});
+  const bool interrupted = answer == ProbeAnswer::kInterrupted;
+  actions_.push_back({t, CoilName(w.bearing->name, coil), "probe",
+                      healthy       ? "healthy"
+                      : interrupted ? "interrupted"
+                                    : "faulty"});
   if (healthy) Restore(w, coil, 1, t, "healthy when probed", position_loop, control, out);
 }
 

@@ -69,6 +69,9 @@ class FaultSupervisor : public Supervisor {
   /// A coil whose derating made the orbit grow is switched off: its turns are not what its slopes
   /// say (a closed loop of shorted turns), or its current loop is not stable with so few.
   void TakeOutDerated(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);
+  /// Another share of a derated coil's turns carries the shaft than was told at first.
+  void FollowCarried(Watched& w, const DetectorAlarm& alarm, double t, bool position_loop,
+                     const BearingControl& control, SupervisorOutput& out);
   /// Whether a coil whose reading is false is the last that carries: what it gives with a false
   /// reading is more than nothing.
   bool NothingElseCarries(Watched& w, const DetectorAlarm& alarm, const BearingControl& control);

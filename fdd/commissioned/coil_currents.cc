@@ -19,11 +19,13 @@ constexpr double kStill = 0.25;      // of the range of its partner's
 /// Readings of every coil: the mean, and how far it and the one before both are from
 /// the set-point, of which the amplifier gives nothing below `least`.
 AMBRIG_WIDE void CompareCurrents(const Lane* adc, int samples, const Lane& set_point, double least,
-                                 const Lane& limit, Lane* last_miss, Lane* error,
+                                 const Lane& limit, Lane* mean_out, Lane* last_miss, Lane* error,
                                  Lane* false_current) {
   LaneVector mean = 0.0;
   for (int k = 0; k < samples; ++k) mean += Load(adc[k].v);
-  const LaneVector miss = Abs(Max(Load(set_point.v), least) - mean * (1.0 / samples));
+  mean = mean * (1.0 / samples);
+  Store(mean_out->v, mean);
+  const LaneVector miss = Abs(Max(Load(set_point.v), least) - mean);
   Store(error->v, Min(miss, Load(last_miss->v)));
   Store(last_miss->v, miss);
   Store(false_current->v,
@@ -48,8 +50,8 @@ void CoilCurrents::Update(const MeasuredPeriod& in, const Lane& share, const Lan
     for (int k = 0; k < samples_; ++k) idle_[j] += in.adc[k][j] / samples_;
   }
   if (in.set_point)
-    CompareCurrents(in.adc, samples_, *in.set_point, least_, most_missed, &last_miss_, &error_,
-                    &false_);
+    CompareCurrents(in.adc, samples_, *in.set_point, least_, most_missed, &mean_, &last_miss_,
+                    &error_, &false_);
 }
 
 bool CoilCurrents::IsFalse(int coil) const { return false_[coil] >= kMissedTwice; }

@@ -25,6 +25,8 @@ class CoilCurrents {
                     const Lane& share);
   void ForgetWithout() { without_ = Lane{}; }
 
+  /// Mean reading of the last period [A].
+  const Lane& mean() const { return mean_; }
   /// |set-point - mean| over two periods [A].
   const Lane& error() const { return error_; }
   /// Whether the current has missed its set-point in two periods in a row.
@@ -45,11 +47,11 @@ class CoilCurrents {
 
   int coils_, samples_;
   bool thrust_;
-  double noise_;            // [A]
-  double least_;            // set-point that the amplifier can follow [A]
-  Lane last_miss_, error_;  // [A]
-  Lane false_;              // periods in a row
-  Lane without_, since_;    // periods in a row without current though driven; since [s]
+  double noise_;                   // [A]
+  double least_;                   // set-point that the amplifier can follow [A]
+  Lane mean_, last_miss_, error_;  // [A]
+  Lane false_;                     // periods in a row
+  Lane without_, since_;           // periods in a row without current though driven; since [s]
   Lane idle_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "fdd/commissioned/excess_lanes.h"
+#include "fdd/commissioned/excess_limits.h"
+
 namespace ambrig {
 
 namespace {
@@ -43,6 +46,17 @@ void CoilProbe::Add(const SlopeExcess& e, double largest) {
     healthy =
         healthy && bottom_[q] > kLeastSeen && std::abs(top_[q]) < kPhaseBand * band_ * bottom_[q];
   answer_ = healthy ? ProbeAnswer::kHealthy : ProbeAnswer::kFaulty;
+}
+
+void CoilProbe::WatchOthers(const SlopeExcess& e) {
+  for (int j = 0; j < kLanes; ++j) {
+    const double top = e.top[0][j] + e.top[1][j], bottom = e.bottom[0][j] + e.bottom[1][j];
+    const bool gross =
+        j != coil_ && bottom > kJudgedWeight && std::abs(top) > ExcessLimits::kGross * bottom;
+    calm_[j] = calm_[j] || !gross;
+    gross_[j] = gross && calm_[j] ? gross_[j] + 1 : 0;
+    if (gross_[j] >= kInARow && answer_ == ProbeAnswer::kNone) answer_ = ProbeAnswer::kInterrupted;
+  }
 }
 
 double CoilProbe::excess() const {

@@ -20,6 +20,9 @@ class CoilProbe {
   /// switch with it can give an open coil the slopes of a healthy one: what tells then is that no
   /// current comes.
   void Add(const SlopeExcess& period, double largest);
+  /// The same period of all other coils that are judged. A c that becomes gross, for three periods
+  /// in a row, ends the probe: that coil has failed meanwhile, and is judged when no probe runs.
+  void WatchOthers(const SlopeExcess& period);
   ProbeAnswer answer() const { return answer_; }
   /// Whether the answer is that no current came at all.
   bool no_current() const { return without_ >= kInARow || idle_ >= kSettledPeriods; }
@@ -32,6 +35,8 @@ class CoilProbe {
   int coil_ = -1, periods_ = 0, without_ = 0;
   int idle_ = 0;  // settled periods without current
   double band_ = 0;
+  int gross_[kLanes] = {};  // periods in a row, of the other coils
+  bool calm_[kLanes] = {};  // whether a period of theirs was not gross
   double top_[2] = {}, bottom_[2] = {};
   ProbeAnswer answer_ = ProbeAnswer::kNone;
 };

@@ -10,6 +10,9 @@ namespace {
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr double kLeastProbeBand = 0.08, kOfGivenUp = 0.5;  // of |c| that it was given up for
 constexpr double kLeastLoop = 0.3;  // of the turns by the ripple: less does no harm, whatever it is
+// Slopes over healthy ones, of what a loop that keeps all flux out of its pole makes of them
+constexpr double kLeastOfLoop = 0.6, kMostOfLoop = 2.5;
+constexpr int kBeforeProbe = 3;                   // window of 40 periods
 constexpr int kAfterProbe = 8, kAfterShare = 25;  // periods
 
 }  // namespace
@@ -28,7 +31,8 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       drift_(setup.model, setup.settings.sampling, commissioned.usable()),
       jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise),
       swing_(setup.model, setup.settings.sampling, setup.settings.current_noise),
-      step_(setup.model, setup.settings.sampling) {
+      step_(setup.model, setup.settings.sampling),
+      carried_(filter_, setup.settings.sampling, commissioned.coils) {
   for (int j = 0; j < setup.model.coils; ++j) turns_.share[j] = 1;
 }
 
@@ -53,11 +57,25 @@ bool CommissionedDetector::AllAreWhole() const {
   return std::all_of(share, share + filter_.nominal().coils, [](double left) { return left == 1; });
 }
 
+bool CommissionedDetector::MayBeLoop(int coil) const {
+  const double left = share(coil);
+  if (left == 0 || left == 1) return false;
+  const LinkageModel& m = filter_.nominal();
+  const Lane P = m.Permeance(0, 0);
+  double total = 0;
+  for (const double p : P.v) total += p;
+  const double steeper = 1 / (left * left),
+               of_loop = m.SelfInductance(coil, P, total) / m.leakage[coil];
+  return closed_[coil] > 0 || (steeper > kLeastOfLoop * of_loop && steeper < kMostOfLoop * of_loop);
+}
+
 void CommissionedDetector::TakeShare(int coil, double share) {
-  if (share == 0 || share == 1) closed_[coil] = 0;
+  // A loop goes on in the flux of its pole when the coil is switched off.
+  if (share == 0 || share == 1) closed_[coil] = share == 0 && MayBeLoop(coil) ? 1 : 0;
   turns_.share[coil] = share;
   turns_.taken[coil] = count_;
   filter_.SetTurns(coil, share);
+  carried_.TurnsChange(coil);
   ratios_.ClearWindows();
   // Turns that close through a resistance carry a current of their own, which no share expresses;
   // they do so too where the coil is switched off afterwards.
@@ -76,6 +94,15 @@ void CommissionedDetector::BeginProbe(int coil, double given_up) {
   probe_.Begin(coil, idle, band);
   filter_.SetTurns(coil, share(coil) > 0 ? share(coil) : 1);
   decision_.ForgetStreaks();
+}
+
+bool CommissionedDetector::OtherFails(int coil) const {
+  const Lane before = Excess(kBeforeProbe);
+  for (int j = 0; j < filter_.nominal().coils && model_.usable(); ++j)
+    if (j != coil && share(j) > 0 && std::abs(ratios_.now()[j]) > ExcessLimits::kGross &&
+        std::abs(before[j]) < ExcessLimits::kGross)
+      return true;
+  return false;
 }
 
 Diagnosis CommissionedDetector::EndProbe(double t) {
@@ -110,6 +137,7 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
   const double nearest = kClosestGap * gap_;
   const double reach = gap_ - nearest;
   const bool comparable = in.comparable && in.x1 * in.x1 + in.y1 * in.y1 < reach * reach;
+  FollowCarried(in, comparable);
   if (!comparable || probe_.running()) {
     if (comparable)
       Probe();
@@ -151,14 +179,29 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
   turns_.erred = turns_.erred || out.turns == 1;
   if (!out.doubtful && !out.alarm && !touch_.touching())
     drift_.Follow(count_, ratios_.windows(), bands_);
-  if (out.decided) {
+  if (out.decided)
     jumps_.Forget();
-  } else if (stepped >= 0 && share(stepped) == 1) {
-    out.alarm = out.decided = true;
-    const double end = in.t + sampling_.samples * sampling_.step;
-    out.diagnosis = {stepped, FaultClass::kCurrentSensor, 0, end, jumps_.onset(), 1};
-  }
+  else if (stepped >= 0 && share(stepped) == 1)
+    TellStep(in, stepped, &out);
   return out;
+}
+
+void CommissionedDetector::TellStep(const MeasuredPeriod& in, int coil, CoilVerdict* out) const {
+  if (BesideLoop()) {
+    out->doubtful = true;
+    return;
+  }
+  out->alarm = out->decided = true;
+  const double end = in.t + sampling_.samples * sampling_.step;
+  out->diagnosis = {coil, FaultClass::kCurrentSensor, 0, end, jumps_.onset(), 1};
+}
+
+void CommissionedDetector::FollowCarried(const MeasuredPeriod& in, bool comparable) {
+  if (comparable)
+    carried_.Keep(in, period_, currents_.mean());
+  else
+    carried_.Clear();
+  if (carried_.moved() && carried_.share() < 1) closed_[carried_.coil()] = 1;
 }
 
 std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in) {
@@ -190,10 +233,15 @@ void CommissionedDetector::TellCarried(CoilVerdict* out) {
     return;
   d.fraction = step_.Lost(d.coil, d.onset, d.ripple_fraction);
   closed_[d.coil] = d.fraction < d.ripple_fraction ? 1 : 0;
+  carried_.Begin(d.coil, d.onset, 1 - d.fraction, 1 - d.ripple_fraction);
+}
+
+bool CommissionedDetector::BesideLoop() const {
+  return *std::max_element(closed_.v, closed_.v + kLanes) > 0;
 }
 
 bool CommissionedDetector::StandsBesideLoop(const CoilVerdict& out) const {
-  if (*std::max_element(closed_.v, closed_.v + kLanes) == 0) return true;
+  if (!BesideLoop()) return true;
   const Diagnosis& d = out.diagnosis;
   if (d.cls == FaultClass::kPartialShort)
     return closed_[d.coil] == 0 && ratios_.Sudden(d.coil) && out.turns == 0;
@@ -211,9 +259,10 @@ void CommissionedDetector::Skip() {
 
 void CommissionedDetector::Probe() {
   const int coil = probe_.coil();
-  Lane probed;
-  probed[coil] = share(coil) > 0 ? share(coil) : 1;
-  ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
+  Lane judged = turns_.share;
+  judged[coil] = share(coil) > 0 ? share(coil) : 1;
+  ComputeSlopeExcess(filter_, model_.coils, settings_, period_, judged, &excess_);
+  if (model_.usable()) probe_.WatchOthers(excess_);
   probe_.Add(excess_, period_.largest[coil]);
   ratios_.Skip(false);
   range_.Forget();

@@ -9,6 +9,7 @@
 #include "fdd/commissioned/drift_tracker.h"
 #include "fdd/commissioned/fault_decision.h"
 #include "fdd/detectors/coil_detector.h"
+#include "fdd/examination/carried_turns.h"
 #include "fdd/examination/flux_step.h"
 
 namespace ambrig {
@@ -31,6 +32,8 @@ class CommissionedDetector : public CoilDetector {
   /// no coil is judged. `given_up`: c that it was given up for, which a healthy coil must be well
   /// below; 0: not for its c [-].
   void BeginProbe(int coil, double given_up = 0);
+  /// Whether a coil beside `coil` has just become gross, and is to be judged before a probe begins.
+  bool OtherFails(int coil) const;
   /// What it showed of a coil that had turns: no current, or a gross short; else class none.
   Diagnosis EndProbe(double t);
   const CoilProbe& probe() const { return probe_; }
@@ -44,6 +47,8 @@ class CommissionedDetector : public CoilDetector {
   const ExcessWindows& windows() const { return ratios_.windows(); }
   double band(int window, int coil) const { return bands_.band(window, coil); }
   const FluxPeriod& period() const { return period_; }
+  /// What share of a shorted coil's turns carries the shaft, milliseconds after it was told.
+  const CarriedTurns& carried() const { return carried_; }
   const Lane& current_error() const { return currents_.error(); }
   /// |c| of this period alone, all phases [-].
   const Lane& now() const { return ratios_.now(); }
@@ -52,6 +57,9 @@ class CommissionedDetector : public CoilDetector {
   /// Whether a coil has lost turns, but not all.
   bool SomeHaveFewer() const;
   bool AllAreWhole() const;
+  /// Whether what a coil has lost by its slopes may be the work of a loop, which leaves its leakage
+  /// to them.
+  bool MayBeLoop(int coil) const;
   /// A coil has other turns left than believed: means and bands begin again.
   void TakeShare(int coil, double share);
   /// A period of which nothing can be concluded.
@@ -59,11 +67,16 @@ class CommissionedDetector : public CoilDetector {
   void Probe();
   /// A coil whose current swings as no healthy one's can, or a period that such a current spoils.
   std::optional<CoilVerdict> Swings(const MeasuredPeriod& in);
+  /// The reading of `coil` has made a step that its circuit cannot make.
+  void TellStep(const MeasuredPeriod& in, int coil, CoilVerdict* out) const;
+  /// One period of the balance that follows a loop's flux.
+  void FollowCarried(const MeasuredPeriod& in, bool comparable);
   /// Of lost turns, how many the currents that carry the shaft miss.
   void TellCarried(CoilVerdict* out);
   /// Whether a conclusion stands beside a coil whose shorted turns close through a resistance. What
   /// such a loop carries is in no circuit here: it moves the c of its coil and of others slowly.
   bool StandsBesideLoop(const CoilVerdict& out) const;
+  bool BesideLoop() const;
   CoilVerdict Judge(const CoilEvidence& seen);
   CoilEvidence Evidence(const MeasuredPeriod& in) const;
   double share(int coil) const { return turns_.share[coil]; }
@@ -86,6 +99,7 @@ class CommissionedDetector : public CoilDetector {
   JumpWatch jumps_;
   CurrentSwing swing_;
   FluxStep step_;
+  CarriedTurns carried_;
   FaultDecision decision_;
   Lane closed_;          // 1: its shorted turns close through a resistance
   bool looped_ = false;  // shorted turns of some coil may carry a current of their own

@@ -22,6 +22,10 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   ++count_;
   const CoilVerdict seen = watch_.Watch(in);
   doubtful_ = seen.doubtful && !seen.decided;
+  if (watch_.carried().moved()) {
+    alarm.carrying = watch_.carried().coil();
+    alarm.carried = watch_.carried().share();
+  }
   if (!seen.decided) return alarm;
   const Diagnosis& d = seen.diagnosis;
   if (seen.turns == 0 && WasRefused(d)) {
@@ -74,6 +78,7 @@ void CommissionedRun::SetTurns(int coil, double share) {
 }
 
 bool CommissionedRun::BeginProbe(int coil) {
+  if (watch_.OtherFails(coil)) return false;
   watch_.BeginProbe(coil, share_[coil] > 0 ? 0 : given_up_[coil]);
   return true;
 }

@@ -32,6 +32,10 @@ struct DetectorAlarm {
   int coil = -1;
   Diagnosis diagnosis;          // cls other than kNone: decided in this period
   std::vector<Diagnosis> more;  // of other coils, decided together with it
+  // Of a coil whose short was told before, -1: none. This share of its turns carries the shaft, by
+  // its flux since.
+  int carrying = -1;
+  double carried = 0;
 };
 
 /// Mean slope of a coil's current while its bridge drives up, and the band that a healthy coil
@@ -40,8 +44,9 @@ struct SlopeBand {
   double slope = 0, expected = 0, half_width = 0;
 };
 
-/// Of a coil that a small current is driven through.
-enum class ProbeAnswer { kNone, kHealthy, kFaulty };
+/// Of a coil that a small current is driven through; interrupted: nothing was seen of it, as
+/// another coil may have failed meanwhile.
+enum class ProbeAnswer { kNone, kHealthy, kFaulty, kInterrupted };
 
 class RunDetector {
  public:

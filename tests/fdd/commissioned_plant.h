@@ -39,6 +39,7 @@ class ConclusionLog : public Supervisor {
     in.set_point = &control[bearing_].commanded;
     const DetectorAlarm alarm = run_->Period(in);
     doubted = doubted || run_->doubtful();
+    if (alarm.carrying >= 0) carried.emplace_back(alarm.carrying, alarm.carried);
     if (alarm.diagnosis.cls == FaultClass::kNone && !alarm.raised) return;
     periods.push_back({m.t + period_, alarm, run_->doubtful()});
     found.push_back(alarm.diagnosis);
@@ -52,6 +53,7 @@ class ConclusionLog : public Supervisor {
   }
   std::vector<ConcludedPeriod> periods;
   std::vector<Diagnosis> found;
+  std::vector<std::pair<int, double>> carried;  // coil from 0, share of its turns that carries
   bool doubted = false;
 
  private:

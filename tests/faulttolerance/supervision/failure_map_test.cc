@@ -65,6 +65,29 @@ TEST_F(Reach, WhatCarriesTheWeightStaysUpAndWhatDoesNotDrops) {
   }
 }
 
+// A linearised W has another gain than the healthy bearing: the integrator of the position loop
+// finds the command.
+TEST_F(Reach, ALinearisedMapCarriesWithTheCommandThatTheIntegratorFinds) {
+  CurrentMap weaker = healthy;
+  weaker.W.rightCols<2>() *= 0.6;
+  const MapReach r = ReachOfMap(table.problem(), weaker, load, most);
+  EXPECT_TRUE(r.carries);
+  EXPECT_GT(r.margin, 1.2);
+  // Another sign of its gain: the command runs away.
+  weaker.W.rightCols<2>() *= -1;
+  EXPECT_FALSE(ReachOfMap(table.problem(), weaker, load, most).carries);
+}
+
+// A force along x that is not there is no small error of the weight along y.
+TEST_F(Reach, WhatCannotBeAddedBesideTheLoadIsNotHeld) {
+  CurrentMap one_way = healthy;
+  one_way.W.col(1).setZero();
+  const MapReach r = ReachOfMap(table.problem(), one_way, load, most);
+  EXPECT_FALSE(r.carries);
+  EXPECT_EQ(r.worst, 0);
+  EXPECT_EQ(MarginOfMap(table.problem(), one_way, load, most), 0);
+}
+
 // Findings: with both windows of one thrust side lost the bias of the other side pressed the shaft
 // to its stop for the rest of the run.
 TEST(ThrustSide, WithOneSideLostTheOtherHoldsWhatPullsAgainstIt) {

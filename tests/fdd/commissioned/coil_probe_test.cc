@@ -55,6 +55,25 @@ TEST(CoilProbe, NoSlopeAtAllIsToldAtOnce) {
   EXPECT_TRUE(probe.no_current());
 }
 
+TEST(CoilProbe, EndsWhenAnotherCoilFails) {
+  CoilProbe probe;
+  probe.Begin(kProbed, 0, 0.2);
+  SlopeExcess e = Sums(0, 0);
+  e.bottom[0][5] = e.bottom[1][5] = 100;
+  e.top[0][5] = e.top[1][5] = 40;  // c = 0.4
+  for (int n = 0; n < 3; ++n) probe.WatchOthers(e);
+  EXPECT_EQ(AnswerTo(probe, e, 5), ProbeAnswer::kNone);
+  e.top[0][5] = e.top[1][5] = 100;
+  for (int n = 0; n < 2; ++n) probe.WatchOthers(e);
+  EXPECT_EQ(probe.answer(), ProbeAnswer::kNone);
+  probe.WatchOthers(e);
+  EXPECT_EQ(probe.answer(), ProbeAnswer::kInterrupted);
+  // What was gross from the start is an error of the circuit: it says nothing new.
+  probe.Begin(kProbed, 0, 0.2);
+  for (int n = 0; n < 5; ++n) probe.WatchOthers(e);
+  EXPECT_EQ(probe.answer(), ProbeAnswer::kNone);
+}
+
 // Neighbours that switch with it give an open coil right slopes.
 TEST(CoilProbe, RightSlopesWithoutCurrentAreAnOpenCoil) {
   CoilProbe probe;
