@@ -27,27 +27,29 @@ constexpr std::size_t kTried = 3;  // effects in their place
 
 /// Whether nearly all that amounts explain would be explained by the same amount in all records of
 /// a free rotor, and by one in those of a held rotor: what acts on the rotor is not seen in these.
+/// An amount that few records tell says nothing.
 bool AreTheSame(const Case& data, const std::vector<NuisanceFound>& amounts) {
   constexpr double kNearlyAll = 0.9;
-  constexpr int kLeastRecords = 3;  // of a free rotor: two may agree by chance
+  constexpr int kLeastRecords = 3;  // two may agree by chance
   std::map<std::string, bool> held;
   for (const CaseRecord& r : data.records)
     held[r.data_file] = r.scenario.start == StartState::kClamped;
-  if (std::ranges::count(held, false, [](const auto& r) { return r.second; }) < kLeastRecords)
-    return false;
   struct Sums {
+    int records = 0;
     double information = 0, weighted = 0, square = 0;
   };
   std::map<std::pair<std::string, bool>, Sums> kinds;
   for (const NuisanceFound& f : amounts) {
     if (f.record.empty() || !(f.sd > 0)) continue;
     Sums& s = kinds[{f.name, held[f.record]}];
+    ++s.records;
     s.information += 1 / (f.sd * f.sd);
     s.weighted += f.value / (f.sd * f.sd);
     s.square += f.value * f.value / (f.sd * f.sd);
   }
   double all = 0, common = 0;
   for (const auto& [name, s] : kinds) {
+    if (s.records < kLeastRecords) continue;
     all += s.square;
     common += s.weighted * s.weighted / s.information;
   }
