@@ -29,7 +29,7 @@ constexpr std::size_t kTried = 3;  // effects in their place
 /// a free rotor, and by one in those of a held rotor: what acts on the rotor is not seen in these.
 /// An amount that few records tell says nothing.
 bool AreTheSame(const Case& data, const std::vector<NuisanceFound>& amounts) {
-  constexpr double kNearlyAll = 0.9;
+  constexpr double kNearlyAll = 0.98;
   constexpr int kLeastRecords = 3;  // two may agree by chance
   std::map<std::string, bool> held;
   for (const CaseRecord& r : data.records)
