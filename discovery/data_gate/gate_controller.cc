@@ -180,26 +180,13 @@ long LagOfReading(const RigParameters& rig, const Scenario& scenario, const Brid
   return best;
 }
 
-/// As WhiteNoiseOf, from eighth differences: sines of a command that reaches to a tenth of the rate
-/// leave less than 1e-3 of themselves in them.
-double NoiseBesideSines(const std::vector<double>& values, const std::vector<char>& counts) {
-  constexpr double kOfFourth = 70, kOfEighth = 12870;  // variances of differences of white noise
-  std::vector<double> fourth;
-  std::vector<char> ok;
-  for (std::size_t k = 0; k + 4 < counts.size(); ++k) {
-    fourth.push_back(values[k] - 4 * values[k + 1] + 6 * values[k + 2] - 4 * values[k + 3] +
-                     values[k + 4]);
-    ok.push_back(counts[k] && counts[k + 1] && counts[k + 2] && counts[k + 3] && counts[k + 4]);
-  }
-  return WhiteNoiseOf(fourth.data(), ok.data(), fourth.size()) * std::sqrt(kOfFourth / kOfEighth);
-}
-
 /// Whether the error enters as a command does: a wrong reading would carry the noise of its sensor
 /// into it.
 bool IsCommand(const BridgedRecord& data, const ControllerAxis& a) {
   constexpr double kOfNoise = 0.1;
-  return NoiseBesideSines(a.reference, a.counts) <
-         kOfNoise * NoiseBesideSines(data.record.Find(a.axis)->samples, a.counts);
+  const std::vector<double>& y = data.record.Find(a.axis)->samples;
+  const double noise = WhiteNoiseOf(y.data(), a.counts.data(), a.counts.size());
+  return WhiteNoiseOf(a.reference.data(), a.counts.data(), a.counts.size()) < kOfNoise * noise;
 }
 
 /// "A.x was commanded up to 32.5 um (1.6 N) otherwise, first at 0.026 s".

@@ -74,26 +74,6 @@ TEST(GateController, CommandsOfAnotherSizeAreOfAnotherScenarioBeyondWhatFitsAllo
   }
 }
 
-// The sines of another axis, which reach far up, and of which no size is that of a stated command.
-TEST(GateController, SinesOfAnotherAxisAreOfAnotherScenario) {
-  const char* kSines = "multisine at 60 Hz";
-  Case c = Measured({}, 0, kSines);
-  const std::size_t record = RecordNamed(c, kSines);
-  Scenario& scenario = c.records[record].scenario;
-  const Scenario written = scenario;
-  scenario.excitations.pop_back();
-  scenario.excitations.back().target = "B.y";
-  Hypothesis truth;
-  truth.rig = RadialRig();
-  c = testing::MeasuredBy(truth, c);
-  c.records[record].scenario = written;
-  std::vector<DataFault> faults;
-  CheckController(CaseModel(c), record, {}, faults);
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].fault, "scenario");
-  EXPECT_NE(faults[0].detail.find("commanded otherwise at"), std::string::npos) << faults[0].detail;
-}
-
 // One sine of four had another size: its high frequencies look like the noise of a sensor.
 TEST(GateController, ACommandOfAnotherSizeIsNamed) {
   Case c = Measured({}, 0, "multisine at 60 Hz");
