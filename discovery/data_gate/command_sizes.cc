@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/math/linear_equations.h"
-#include "discovery/model/controller_block.h"
 
 namespace ambrig {
 
@@ -14,26 +13,19 @@ namespace {
 
 constexpr double kLeastAnswer = 1e-12;  // of the squared error: what an excitation has to move
 
-Eigen::VectorXd ProgramErrors(const std::vector<ControllerAxis>& axes) {
-  std::vector<double> out;
-  for (const ControllerAxis& a : axes)
-    for (std::size_t k = 0; k < a.error.size(); ++k) out.push_back(a.counts[k] ? a.error[k] : 0);
-  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
-}
-
 }  // namespace
 
 CommandSizes FindCommandSizes(const RigParameters& rig, const Scenario& scenario,
-                              const BridgedRecord& data) {
+                              const BridgedRecord& data, const CommandReplay& replay) {
   CommandSizes out{std::vector<double>(scenario.excitations.size(), 1), 1};
-  const Eigen::VectorXd error = ProgramErrors(ControllerAxes(rig, scenario, data));
+  const Eigen::VectorXd error = CountedErrors(replay.now);
   if (error.squaredNorm() <= 0) return out;
   std::vector<std::size_t> seen;
   std::vector<Eigen::VectorXd> answers;  // what more of each excitation would leave
   for (std::size_t e = 0; e < scenario.excitations.size(); ++e) {
     Scenario without = scenario;
     without.excitations.erase(without.excitations.begin() + static_cast<std::ptrdiff_t>(e));
-    const Eigen::VectorXd answer = ProgramErrors(ControllerAxes(rig, without, data)) - error;
+    const Eigen::VectorXd answer = CountedErrors(ControllerAxes(rig, without, data)) - error;
     if (answer.squaredNorm() <= kLeastAnswer * error.squaredNorm()) continue;
     seen.push_back(e);
     answers.push_back(answer);

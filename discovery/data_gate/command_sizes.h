@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record/missing_samples.h"
-#include "scenarios/scenario.h"
+#include "discovery/data_gate/command_replay.h"
 
 namespace ambrig {
 
@@ -16,9 +15,9 @@ struct CommandSizes {
 
 /// The sizes that leave the least error of the controller's program. An excitation that the program
 /// does not see, of a coil or of no size, keeps 1. `data`: readings and set-points at the
-/// controller's rate.
+/// controller's rate, of which `replay` is.
 CommandSizes FindCommandSizes(const RigParameters& rig, const Scenario& scenario,
-                              const BridgedRecord& data);
+                              const BridgedRecord& data, const CommandReplay& replay);
 
 /// "its multisine at B.y was 0.625 times what the scenario says", of the sizes that differ; ""
 /// where none does.

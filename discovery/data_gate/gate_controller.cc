@@ -4,10 +4,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/record/channels.h"
 #include "discovery/data/clock_shift.h"
 #include "discovery/data/noise_estimate.h"
+#include "discovery/data_gate/command_replay.h"
 #include "discovery/data_gate/command_sizes.h"
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
@@ -28,15 +30,6 @@ constexpr double kMostInputGain = 1.6;     // that the fits give an input, or it
 constexpr double kLongestLag = 0.05;       // [s]
 constexpr std::size_t kMostBlocks = 4;     // of lost rows in one record
 
-/// The errors of all axes, rows that count only [A].
-Eigen::VectorXd CountedErrors(const std::vector<ControllerAxis>& axes) {
-  std::vector<double> out;
-  for (const ControllerAxis& a : axes)
-    for (std::size_t k = 0; k < a.error.size(); ++k)
-      if (a.counts[k]) out.push_back(a.error[k]);
-  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
-}
-
 /// The size and the clock of the commands that leave the least error.
 struct InputFit {
   double gain = 1;  // of what the scenario commands [-]
@@ -47,15 +40,15 @@ struct InputFit {
 /// The error with commands `late` rows later that have the best size: it is linear in the size.
 class InputTrial {
  public:
-  InputTrial(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data)
-      : rig_(rig), scenario_(scenario), data_(data) {
-    Scenario silent = scenario;
-    silent.excitations.clear();
-    silent_ = ControllerAxes(rig, silent, data);
-    now_ = ControllerAxes(rig, scenario, data);
-    without_ = CountedErrors(silent_);
-    before_ = CountedErrors(now_).norm();
-  }
+  InputTrial(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data,
+             const CommandReplay& replay)
+      : rig_(rig),
+        scenario_(scenario),
+        data_(data),
+        silent_(replay.silent),
+        now_(replay.now),
+        without_(CountedErrors(silent_)),
+        before_(CountedErrors(now_).norm()) {}
   /// As Late, of whole rows, by the answer as it is at 0: nothing in the controller depends on
   /// time.
   InputFit Shifted(long rows) const {
@@ -89,14 +82,15 @@ class InputTrial {
   const RigParameters& rig_;
   const Scenario& scenario_;
   const BridgedRecord& data_;
-  std::vector<ControllerAxis> silent_, now_;  // without commands, with them
+  const std::vector<ControllerAxis>&silent_, &now_;  // without commands, with them
   Eigen::VectorXd without_;
-  double before_ = 0;
+  double before_;
 };
 
 /// Whole rows, then parts of a row: steps on rows and between them move at other instants.
-InputFit FitInput(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data) {
-  const InputTrial trial(rig, scenario, data);
+InputFit FitInput(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data,
+                  const CommandReplay& replay) {
+  const InputTrial trial(rig, scenario, data, replay);
   const long most = MostRowsOff(data.record.rate);
   InputFit best;
   const auto try_late = [&](double rows) {
@@ -240,16 +234,17 @@ void CheckController(const CaseModel& model, std::size_t record,
     return;
   if (!HasControllerBlock(rig, r.scenario, r.data)) return;
   const BridgedRecord data = ControllerRecord(r.data);
-  const std::vector<ControllerAxis> axes = ControllerAxes(rig, r.scenario, data);
+  std::vector<ControllerAxis> axes = ControllerAxes(rig, r.scenario, data);
+  if (std::ranges::none_of(axes, IsWrong) || !ProgramIsRight(model)) return;
+  const CommandReplay replay = ReplayCommands(rig, r.scenario, data, std::move(axes));
   std::vector<const ControllerAxis*> wrong;
-  for (const ControllerAxis& a : axes)
+  for (const ControllerAxis& a : replay.now)
     if (IsWrong(a)) wrong.push_back(&a);
-  if (wrong.empty() || !ProgramIsRight(model)) return;
-  if (const InputFit fit = FitInput(rig, r.scenario, data); fit.left < kOfInputNuisances) {
+  if (const InputFit fit = FitInput(rig, r.scenario, data, replay); fit.left < kOfInputNuisances) {
     TellInput(r, fit, out);
     return;
   }
-  const CommandSizes sizes = FindCommandSizes(rig, r.scenario, data);
+  const CommandSizes sizes = FindCommandSizes(rig, r.scenario, data, replay);
   if (const std::string text = CommandSizesText(r.scenario, sizes.of_excitations);
       sizes.left < kUndone && !text.empty()) {
     DataFault f = FaultLeaving(r, "", "scenario", sizes.left);
@@ -257,7 +252,7 @@ void CheckController(const CaseModel& model, std::size_t record,
     TellScenario(f, out);
     return;
   }
-  const LostBlocks lost = FindLostBlocks(rig, r.scenario, data);
+  const LostBlocks lost = FindLostBlocks(replay, data.record.rate);
   if (lost.left < kOfInputNuisances && !lost.blocks.empty() && lost.blocks.size() <= kMostBlocks) {
     TellLostBlocks(r, lost, out);
     return;

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "discovery/data/clock_shift.h"
-#include "discovery/model/controller_block.h"
 
 namespace ambrig {
 
@@ -19,12 +18,7 @@ constexpr std::uint16_t kNoBlock = 65535;
 /// Squared errors of the program with commands that come so many rows early.
 class EarlyCommands {
  public:
-  EarlyCommands(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data) {
-    Scenario silent = scenario;
-    silent.excitations.clear();
-    silent_ = ControllerAxes(rig, silent, data);
-    now_ = ControllerAxes(rig, scenario, data);
-  }
+  explicit EarlyCommands(const CommandReplay& replay) : silent_(replay.silent), now_(replay.now) {}
 
   std::size_t rows() const { return silent_.empty() ? 0 : silent_[0].error.size(); }
 
@@ -43,7 +37,7 @@ class EarlyCommands {
   }
 
  private:
-  std::vector<ControllerAxis> silent_, now_;  // without commands, with them
+  const std::vector<ControllerAxis>&silent_, &now_;  // without commands, with them
 };
 
 /// The clocks of all rows with the least cost, which never go back. `clock` 0 is `first` rows
@@ -86,18 +80,16 @@ ClockPath BestClocks(const EarlyCommands& commands, long first, std::size_t cloc
 
 }  // namespace
 
-LostBlocks FindLostBlocks(const RigParameters& rig, const Scenario& scenario,
-                          const BridgedRecord& data) {
+LostBlocks FindLostBlocks(const CommandReplay& replay, double rate) {
   LostBlocks out;
-  const EarlyCommands commands(rig, scenario, data);
+  const EarlyCommands commands(replay);
   const std::size_t rows = commands.rows();
   double as_it_is = 0;
   for (std::size_t row = 0; row < rows; ++row) as_it_is += commands.Square(row, 0);
   if (as_it_is <= 0) return out;
-  const long off = MostRowsOff(data.record.rate);
-  const double longest =
-      std::min({kLongestLoss * data.record.rate, kMostCells / static_cast<double>(rows),
-                static_cast<double>(kNoBlock) - 1});
+  const long off = MostRowsOff(rate);
+  const double longest = std::min({kLongestLoss * rate, kMostCells / static_cast<double>(rows),
+                                   static_cast<double>(kNoBlock) - 1});
   const auto clocks = static_cast<std::size_t>(2 * off + 1 + std::lround(longest));
   const ClockPath path = BestClocks(commands, -off, clocks, kBlockPays * as_it_is);
   for (std::size_t row = 1; row < rows; ++row)

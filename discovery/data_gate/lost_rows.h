@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/record/missing_samples.h"
-#include "scenarios/scenario.h"
+#include "discovery/data_gate/command_replay.h"
 
 namespace ambrig {
 
@@ -20,9 +19,8 @@ struct LostBlocks {
 };
 
 /// The blocks whose loss leaves the least error of the controller's program, each of which pays for
-/// itself. `data`: readings and set-points at the controller's rate. The commands may be late or
-/// early by the rows that a fit may move them.
-LostBlocks FindLostBlocks(const RigParameters& rig, const Scenario& scenario,
-                          const BridgedRecord& data);
+/// itself. `replay`: of a record at the controller's `rate` [Hz]. The commands may be late or early
+/// by the rows that a fit may move them.
+LostBlocks FindLostBlocks(const CommandReplay& replay, double rate);
 
 }  // namespace ambrig

@@ -44,7 +44,7 @@ std::vector<RankedEffect> RankBeside(const CaseModel& model, const FoundEffects&
     FitResult fit = FitOn(model, found.now, best->fit.hypothesis, effective_sample_size);
     if (fit.converged) note(*best, std::move(fit));
   }
-  std::stable_sort(out.begin(), out.end(), better);
+  SortByScore(out);
   SetProbabilities(found.base, out);
   return out;
 }

@@ -32,7 +32,7 @@ bool NameComparison::CompareBeside(const FitResult& base, std::size_t index,
   std::vector<RankedEffect> ranking = RankBeside(models_.thinned(), {base, now, adopted_.all()},
                                                  index, rivals, models_.effective_sample_size());
   if (names_.KeepSharedCurve(ranking)) {
-    std::ranges::stable_sort(ranking, {}, &RankedEffect::score);
+    SortByScore(ranking);
     SetProbabilities(base, ranking);
   }
   const RankedEffect& best = ranking[0];

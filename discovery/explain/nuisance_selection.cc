@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "discovery/decision/conclusion.h"
+#include "discovery/decision/drift_test.h"
 #include "discovery/decision/nuisance_choice.h"
 #include "discovery/model/nuisance_kinds.h"
 #include "discovery/model/residual.h"
@@ -30,28 +31,27 @@ constexpr std::size_t kTried = 3;  // effects in their place
 /// An amount that few records tell says nothing.
 bool AreTheSame(const Case& data, const std::vector<NuisanceFound>& amounts) {
   constexpr double kNearlyAll = 0.98;
-  constexpr int kLeastRecords = 3;  // two may agree by chance
+  constexpr std::size_t kLeastRecords = 3;  // two may agree by chance
   std::map<std::string, bool> held;
   for (const CaseRecord& r : data.records)
     held[r.data_file] = r.scenario.start == StartState::kClamped;
-  struct Sums {
-    int records = 0;
-    double information = 0, weighted = 0, square = 0;
+  struct OfKind {
+    std::vector<double> value, information;
+    double square = 0;  // weighted
   };
-  std::map<std::pair<std::string, bool>, Sums> kinds;
+  std::map<std::pair<std::string, bool>, OfKind> kinds;
   for (const NuisanceFound& f : amounts) {
     if (f.record.empty() || !(f.sd > 0)) continue;
-    Sums& s = kinds[{f.name, held[f.record]}];
-    ++s.records;
-    s.information += 1 / (f.sd * f.sd);
-    s.weighted += f.value / (f.sd * f.sd);
-    s.square += f.value * f.value / (f.sd * f.sd);
+    OfKind& k = kinds[{f.name, held[f.record]}];
+    k.value.push_back(f.value);
+    k.information.push_back(1 / (f.sd * f.sd));
+    k.square += f.value * f.value / (f.sd * f.sd);
   }
   double all = 0, common = 0;
-  for (const auto& [name, s] : kinds) {
-    if (s.records < kLeastRecords) continue;
-    all += s.square;
-    common += s.weighted * s.weighted / s.information;
+  for (const auto& [name, k] : kinds) {
+    if (k.value.size() < kLeastRecords) continue;
+    all += k.square;
+    common += k.square - TestDrift(k.value, k.information).q;
   }
   return common > kNearlyAll * all;
 }

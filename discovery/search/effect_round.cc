@@ -63,13 +63,13 @@ class Ranker {
     }
     ScreenFromNominal();
     FitThePromising();
-    Sort();
+    SortByScore(ranking_);
     FitRivalsOfTheBest();
-    Sort();
+    SortByScore(ranking_);
     ContinueTheNext();
-    Sort();
+    SortByScore(ranking_);
     FitToTheEnd();
-    Sort();
+    SortByScore(ranking_);
     if (!ranking_.empty() && ranking_[0].fit.jacobian.size() == 0) {
       ranking_[0].fit = FitOn(s_.model, now_, ranking_[0].fit.hypothesis, s_.effective_sample_size);
       Note(ranking_[0]);
@@ -246,11 +246,6 @@ class Ranker {
     r.score = Score(s_.model, r.fit, s_.effective_sample_size);
   }
 
-  void Sort() {
-    std::stable_sort(ranking_.begin(), ranking_.end(),
-                     [](const auto& a, const auto& b) { return a.score < b.score; });
-  }
-
   const RoundSetting& s_;
   const FitResult& now_;
   FitResult nominal_;  // the rig file's own parameters, where these were screened too
@@ -276,6 +271,10 @@ void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& rankin
   }
   const std::vector<double> probability = Probabilities(scores, shares);
   for (std::size_t k = 0; k < ranking.size(); ++k) ranking[k].probability = probability[k];
+}
+
+void SortByScore(std::vector<RankedEffect>& ranking) {
+  std::ranges::stable_sort(ranking, {}, &RankedEffect::score);
 }
 
 bool IsSameName(const EffectInstance& a, const EffectInstance& b) {

@@ -50,6 +50,9 @@ struct EffectRound {
 /// error of `before` that they explain.
 void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& ranking);
 
+/// Best first by the scores, equal ones as they stand.
+void SortByScore(std::vector<RankedEffect>& ranking);
+
 /// Effects to add to `now`, which has `round` effects already.
 EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round);
 

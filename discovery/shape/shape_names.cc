@@ -34,8 +34,7 @@ class ShapeJudge {
     JudgeIron();
     if (round_ == 0) JudgeMotion();
     if (!judged_) return;
-    std::stable_sort(ranking_.begin(), ranking_.end(),
-                     [](const auto& a, const auto& b) { return a.score < b.score; });
+    SortByScore(ranking_);
     SetProbabilities(now_, ranking_);
   }
 

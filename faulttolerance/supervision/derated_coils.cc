@@ -21,10 +21,8 @@ std::string FaultSupervisor::ClassWithout(Watched& w, int coil, const BearingCon
   const CoilVector before = w.turns_left;
   if (!w.healthy) w.healthy = control.map;
   CurrentMap map = control.map;
-  CoilVector now = CoilVector::Zero();
-  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
   w.turns_left[coil] = 0;
-  std::string cls = NewMap(w, CommandedForce(control.map, now), &map);
+  std::string cls = NewMap(w, CommandedForce(control.map, SetPointsOf(control)), &map);
   w.turns_left = before;
   return cls;
 }

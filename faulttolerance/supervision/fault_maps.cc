@@ -21,8 +21,7 @@ void FaultSupervisor::Redistribute(Watched& w, double t, const BearingControl& c
   if (!w.healthy) w.healthy = control.map;
   ReplaceMap change{w.index, control.map, control.current_transition, w.turns_left};
   CurrentMap& map = change.map;
-  CoilVector now = CoilVector::Zero();
-  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
+  const CoilVector now = SetPointsOf(control);
   const Eigen::Vector2d force = CommandedForce(control.map, now);
   std::string cls = "exact";
   if ((w.turns_left.array() == 1).all())

@@ -34,4 +34,10 @@ Eigen::Vector2d CommandedForce(const CurrentMap& map, const CoilVector& set_poin
          (normal.inverse() * gain.transpose() * (set_points - map.c0 * map.W.col(0)));
 }
 
+CoilVector SetPointsOf(const BearingControl& control) {
+  CoilVector out = CoilVector::Zero();
+  for (int j = 0; j < control.coils; ++j) out[j] = control.set_point[j];
+  return out;
+}
+
 }  // namespace ambrig

@@ -1,5 +1,6 @@
 #pragma once
 /// Questions about the current map of a radial bearing before and after a redistribution.
+#include "control/current/bearing_control.h"
 #include "control/current/current_map.h"
 #include "faulttolerance/redistribution/distribution_solver.h"
 
@@ -17,5 +18,7 @@ Eigen::Matrix2d DestabilisingPart(const Eigen::Matrix2d& change);
 
 /// The force command [N] that set-points [A] of this map came from.
 Eigen::Vector2d CommandedForce(const CurrentMap& map, const CoilVector& set_points);
+/// The set-points in force, of every coil [A].
+CoilVector SetPointsOf(const BearingControl& control);
 
 }  // namespace ambrig

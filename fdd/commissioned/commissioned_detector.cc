@@ -61,11 +61,8 @@ bool CommissionedDetector::MayBeLoop(int coil) const {
   const double left = share(coil);
   if (left == 0 || left == 1) return false;
   const LinkageModel& m = filter_.nominal();
-  const Lane P = m.Permeance(0, 0);
-  double total = 0;
-  for (const double p : P.v) total += p;
   const double steeper = 1 / (left * left),
-               of_loop = m.SelfInductance(coil, P, total) / m.leakage[coil];
+               of_loop = m.SelfInductanceAt(coil, 0, 0) / m.leakage[coil];
   return closed_[coil] > 0 || (steeper > kLeastOfLoop * of_loop && steeper < kMostOfLoop * of_loop);
 }
 

@@ -79,10 +79,7 @@ FluxStep::Curve FluxStep::CurveOf(int coil) const {
 
 double FluxStep::Follows(int coil, double a) const {
   const KeptPeriod& last = period_[static_cast<std::size_t>((count_ - 1) % kKept)];
-  const Lane P = nominal_.Permeance(last.in.x1, last.in.y1);
-  double total = 0;
-  for (const double p : P.v) total += p;
-  return 1 - a * nominal_.leakage[coil] / nominal_.SelfInductance(coil, P, total);
+  return 1 - a * nominal_.leakage[coil] / nominal_.SelfInductanceAt(coil, last.in.x1, last.in.y1);
 }
 
 double FluxStep::Lost(int coil, double onset, double by_ripple) const {

@@ -58,4 +58,11 @@ double LinkageModel::SelfInductance(int j, const Lane& P, double total) const {
   return n[j] * n[j] * own + leakage[j];
 }
 
+double LinkageModel::SelfInductanceAt(int j, double x, double y) const {
+  const Lane P = Permeance(x, y);
+  double total = 0;
+  for (const double p : P.v) total += p;
+  return SelfInductance(j, P, total);
+}
+
 }  // namespace ambrig

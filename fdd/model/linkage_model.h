@@ -29,6 +29,8 @@ struct LinkageModel : StatorGeometry {
   void Permeance(const double* from, const double* to, MovingPermeance* out) const;
   /// Own inductance of coil j for permeances P with sum `total` [H].
   double SelfInductance(int j, const Lane& P, double total) const;
+  /// The same with the rotor at (x, y) [H].
+  double SelfInductanceAt(int j, double x, double y) const;
 };
 
 /// Of a radial, a thrust or an opposed stator, nominal values.

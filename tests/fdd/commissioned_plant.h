@@ -126,6 +126,14 @@ struct CommissionedRig {
   }
 };
 
+/// A run with a short of one coil beside the detector of its bearing.
+inline std::unique_ptr<ConclusionLog> ConcludedShort(const CommissionedRig& plant, int coil,
+                                                     const std::string& parameters,
+                                                     double duration) {
+  return Concluded(plant.rig, &plant.bearing,
+                   Operation(FaultOf(coil, "partial-short", parameters), duration));
+}
+
 /// Without effects.
 inline const CommissionedRig& BaseModel() {
   static const CommissionedRig made(ReferenceRig());

@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "discovery/data_gate/data_gate.h"
 #include "discovery/experiment/examination.h"
 #include "discovery/model/floor.h"
+#include "effects/catalogue.h"
 #include "rig/parameters/bearing_kind.h"
 #include "rig/rig_file.h"
 
@@ -34,6 +37,25 @@ inline Case MeasuredBy(const Hypothesis& truth, Case c) {
     }
   }
   return c;
+}
+
+/// `c` measured on `rig` while one of its records ran under another scenario than its file states.
+inline Case MeasuredUnder(Case c, std::size_t record, const std::function<void(Scenario&)>& change,
+                          const RigParameters& rig = RadialRig()) {
+  const Scenario written = c.records[record].scenario;
+  change(c.records[record].scenario);
+  Hypothesis truth;
+  truth.rig = rig;
+  c = MeasuredBy(truth, std::move(c));
+  c.records[record].scenario = written;
+  return c;
+}
+
+/// A force that the model lacks [N/m].
+inline EffectInstance CrossCouplingAtA(double stiffness) {
+  EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
+  cross.values[0] = stiffness;
+  return cross;
 }
 
 /// Two records as a logger writes them: steps at rest, and clamped current ramps; with `third` one

@@ -27,15 +27,10 @@ std::vector<DataFault> ControllerFaults(const Case& c) {
 
 /// The case whose step record was commanded otherwise than its scenario file says.
 Case CommandedOtherwise(const std::function<void(Excitation&)>& change) {
-  Case c = Measured({}, 0, "multisine at 60 Hz");
-  Scenario& scenario = c.records[RecordNamed(c, kStepRecord)].scenario;
-  const Scenario written = scenario;
-  for (Excitation& e : scenario.excitations) change(e);
-  Hypothesis truth;
-  truth.rig = RadialRig();
-  c = testing::MeasuredBy(truth, c);
-  c.records[RecordNamed(c, kStepRecord)].scenario = written;
-  return c;
+  const Case c = Measured({}, 0, "multisine at 60 Hz");
+  return testing::MeasuredUnder(c, RecordNamed(c, kStepRecord), [&](Scenario& scenario) {
+    for (Excitation& e : scenario.excitations) change(e);
+  });
 }
 
 void ShiftColumn(Case& c, const std::string& channel, std::size_t rows) {
@@ -78,18 +73,14 @@ TEST(GateController, CommandsOfAnotherSizeAreOfAnotherScenarioBeyondWhatFitsAllo
 TEST(GateController, ACommandOfAnotherSizeIsNamed) {
   Case c = Measured({}, 0, "multisine at 60 Hz");
   const std::size_t record = RecordNamed(c, "multisine at 60 Hz");
-  Scenario& scenario = c.records[record].scenario;
-  const Scenario written = scenario;
-  scenario.excitations.back().amplitude *= 0.625;
-  Hypothesis truth;
-  truth.rig = RadialRig();
-  c = testing::MeasuredBy(truth, c);
-  c.records[record].scenario = written;
+  c = testing::MeasuredUnder(
+      c, record, [](Scenario& scenario) { scenario.excitations.back().amplitude *= 0.625; });
   std::vector<DataFault> faults;
   CheckController(CaseModel(c), record, {}, faults);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].fault, "scenario");
-  EXPECT_EQ(faults[0].detail, "its multisine at " + written.excitations.back().target +
+  EXPECT_EQ(faults[0].detail, "its multisine at " +
+                                  c.records[record].scenario.excitations.back().target +
                                   " was 0.625 times what the scenario says");
 }
 
@@ -118,10 +109,8 @@ void LoseRows(Case& c, const std::string& record, long first, long rows) {
 // Blocks that are too short for the prediction to tell, on a machine with a force that the model
 // lacks.
 TEST(GateController, LostRowsAreToldByTheCommands) {
-  EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
-  cross.values[0] = 1e5;
   const char* kSines = "multisine at 60 Hz";
-  Case c = Measured({cross}, 0, kSines);
+  Case c = Measured({testing::CrossCouplingAtA(1e5)}, 0, kSines);
   const std::size_t record = RecordNamed(c, kSines);
   LoseRows(c, kSines, 2000, 9);
   LoseRows(c, kSines, 900, 5);

@@ -4,7 +4,6 @@
 
 #include "core/record/channels.h"
 #include "discovery/data_gate/gate_checks.h"
-#include "effects/catalogue.h"
 #include "tests/discovery/data_gate/gate_case.h"
 
 namespace ambrig {
@@ -21,15 +20,8 @@ std::vector<DataFault> CurrentClockFaults(const Case& c) {
   return out;
 }
 
-/// Records of a machine with a force that the model lacks.
-Case WithCrossCoupling() {
-  EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
-  cross.values[0] = 1e5;
-  return Measured({cross}, 0, kSines);
-}
-
 TEST(GateCurrentClock, CurrentsThatAreLateInOneRecord) {
-  Case c = WithCrossCoupling();
+  Case c = Measured({testing::CrossCouplingAtA(1e5)}, 0, kSines);
   EXPECT_TRUE(CurrentClockFaults(c).empty());
   CaseRecord& r = c.records[RecordNamed(c, kSines)];
   const auto rows = std::lround(2.5e-3 * r.data.rate);

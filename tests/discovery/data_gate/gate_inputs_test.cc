@@ -5,7 +5,6 @@
 #include <functional>
 #include <utility>
 
-#include "effects/catalogue.h"
 #include "tests/discovery/data_gate/gate_case.h"
 
 namespace ambrig {
@@ -20,16 +19,12 @@ using testing::RecordNamed;
 /// The case whose step record was loaded otherwise than its scenario file says, on a rotor that is
 /// 1 % heavier.
 Case LoadedOtherwise(const std::function<void(LoadSpec&)>& change) {
-  Case c = Measured({}, 0, "multisine at 60 Hz");
-  Scenario& scenario = c.records[RecordNamed(c, kStepRecord)].scenario;
-  const Scenario written = scenario;
-  change(scenario.loads.at(0));
-  Hypothesis truth;
-  truth.rig = RadialRig();
-  truth.rig.rotor.mass *= 1.01;
-  c = testing::MeasuredBy(truth, c);
-  c.records[RecordNamed(c, kStepRecord)].scenario = written;
-  return c;
+  const Case c = Measured({}, 0, "multisine at 60 Hz");
+  RigParameters heavier = RadialRig();
+  heavier.rotor.mass *= 1.01;
+  return testing::MeasuredUnder(
+      c, RecordNamed(c, kStepRecord), [&](Scenario& scenario) { change(scenario.loads.at(0)); },
+      heavier);
 }
 
 void ExpectLoad(const Case& c, const std::string& force_and_edges) {
@@ -67,24 +62,20 @@ TEST(GateInputs, ACommandOfAnotherSize) {
     r.data.channels.erase(r.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
     r.quality.erase(r.quality.begin() + static_cast<std::ptrdiff_t>(k));
   }
-  const Scenario written = r.scenario;
-  r.scenario.excitations.back().amplitude *= 0.5;
-  Hypothesis truth;
-  truth.rig = RadialRig();
-  c = testing::MeasuredBy(truth, c);
-  c.records[RecordNamed(c, kSines)].scenario = written;
+  const std::string target = r.scenario.excitations.back().target;
+  c = testing::MeasuredUnder(c, RecordNamed(c, kSines), [](Scenario& scenario) {
+    scenario.excitations.back().amplitude *= 0.5;
+  });
   const std::vector<DataFault> faults = FaultsOf(c);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].fault, "scenario") << FaultText(faults[0]);
-  EXPECT_THAT(faults[0].detail,
-              ::testing::HasSubstr(written.excitations.back().target + " was 0."));
+  EXPECT_THAT(faults[0].detail, ::testing::HasSubstr(target + " was 0."));
 }
 
 // A sideways answer to a load is that of the rig.
 TEST(GateInputs, ARigWithCrossCouplingIsLoadedAsStated) {
-  EffectInstance cross = MakeInstance(EffectNamed("cross-coupling"), "A");
-  cross.values[0] = 1e5;
-  for (const DataFault& f : FaultsOf(Measured({cross}, 0, "multisine at 60 Hz")))
+  for (const DataFault& f :
+       FaultsOf(Measured({testing::CrossCouplingAtA(1e5)}, 0, "multisine at 60 Hz")))
     ADD_FAILURE() << FaultText(f);
 }
 

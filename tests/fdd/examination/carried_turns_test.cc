@@ -13,8 +13,7 @@ using namespace testing_plant;
 
 /// Share of the turns of `coil` that is told last, from what the first diagnosis says on.
 double CarriedAtLast(const CommissionedRig& plant, int coil, const std::string& parameters) {
-  const auto seen = Concluded(plant.rig, &plant.bearing,
-                              Operation(FaultOf(coil, "partial-short", parameters), 0.08));
+  const auto seen = ConcludedShort(plant, coil, parameters, 0.08);
   EXPECT_EQ(seen->Coils(), std::set<int>{coil}) << parameters;
   if (seen->found.empty()) return -1;
   double share = 1 - seen->found[0].fraction;

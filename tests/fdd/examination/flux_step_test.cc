@@ -12,8 +12,7 @@ namespace {
 using namespace testing_plant;
 
 Diagnosis Told(const CommissionedRig& plant, int coil, const std::string& parameters) {
-  const auto seen = Concluded(plant.rig, &plant.bearing,
-                              Operation(FaultOf(coil, "partial-short", parameters), 0.032));
+  const auto seen = ConcludedShort(plant, coil, parameters, 0.032);
   EXPECT_EQ(seen->Coils(), std::set<int>{coil}) << parameters;
   return seen->found.empty() ? Diagnosis{} : seen->found[0];
 }
