@@ -14,7 +14,8 @@ inline constexpr double kMostClockOff = 5e-4;
 long MostRowsOff(double rate);
 
 /// The case with every record's rows moved back by `rows_late` (one number for each record;
-/// negative: it is early). Rows for which no measured one is left do not count.
+/// negative: it is early). Rows for which no measured one is left are missing (NaN) and do not
+/// count.
 Case WithClocks(const Case& c, const std::vector<int>& rows_late);
 
 }  // namespace ambrig
