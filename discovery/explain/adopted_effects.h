@@ -23,6 +23,9 @@ class AdoptedEffects {
   /// Number of effect `k` among the effects of a hypothesis.
   std::size_t PlaceOf(std::size_t k) const { return of_rig_ + k; }
 
+  /// How many effects a fit has beside the rig file's own.
+  std::size_t In(const FitResult& fit) const { return fit.hypothesis.rig.effects.size() - of_rig_; }
+
   /// The last effect of this fit, behind those adopted before.
   void AddLastOf(const FitResult& fit);
   /// The first `count` of a fit in place of all.

@@ -21,16 +21,37 @@ void EffectPairs::Try(const FitResult& base, FitResult& now, std::size_t steps_b
     const bool more = adopted_.size() < 2;
     FitResult fit = FitShortly(model, base, h, independent);
     if (!MayBeAdopted(now, fit, more)) continue;
-    fit = FitOn(model, base, fit.hypothesis, independent);
-    if (!fit.converged || models_.Gain(now, fit) < (more ? 20 : 0) ||
-        !HasSize(fit, adopted_.PlaceOf(0)) || !HasSize(fit, adopted_.PlaceOf(1)) ||
-        (more && !WorthAdopting(now, fit, models_.Gain(now, fit), 1, adopted_.first_fall)))
-      continue;
-    now = std::move(fit);
-    adopted_.Take(now, 2);
+    fit = WithSizeAlone(base, FitOn(model, base, fit.hypothesis, independent));
+    if (!fit.converged || !IsBetter(now, fit)) continue;
+    const std::size_t effects = adopted_.In(fit);
     log_.BackTo(steps_before_effects);
-    log_.Step(Named(p.first) + " and " + Named(p.second), now);
+    log_.Step(effects == 2 ? Named(p.first) + " and " + Named(p.second)
+                           : Named(fit.hypothesis.rig.effects.back()),
+              fit);
+    now = std::move(fit);
+    adopted_.Take(now, effects);
   }
+}
+
+FitResult EffectPairs::WithSizeAlone(const FitResult& base, FitResult pair) const {
+  if (!pair.converged || !adopted_.empty()) return pair;
+  const bool first = HasSize(pair, adopted_.PlaceOf(0)),
+             second = HasSize(pair, adopted_.PlaceOf(1));
+  if (first == second) return pair;
+  Hypothesis h = base.hypothesis;
+  h.AddEffect(pair.hypothesis.rig.effects[adopted_.PlaceOf(first ? 0 : 1)]);
+  return FitOn(models_.thinned(), base, h, models_.effective_sample_size());
+}
+
+bool EffectPairs::IsBetter(const FitResult& now, const FitResult& fit) const {
+  const std::size_t effects = adopted_.In(fit);
+  const bool more = effects > adopted_.size();
+  for (std::size_t k = 0; k < effects; ++k)
+    if (!HasSize(fit, adopted_.PlaceOf(k))) return false;
+  const double gain = models_.Gain(now, fit);
+  if (!more) return gain >= 0;
+  return gain >= 20 &&
+         WorthAdopting(now, fit, gain, static_cast<int>(effects) - 1, adopted_.first_fall);
 }
 
 bool EffectPairs::MayBeAdopted(const FitResult& now, const FitResult& brief, bool more) const {

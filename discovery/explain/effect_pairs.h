@@ -26,6 +26,12 @@ class EffectPairs {
   /// were adopted.
   bool MayBeAdopted(const FitResult& now, const FitResult& brief, bool more) const;
 
+  /// Where nothing was adopted and one effect of a pair has no size: a fit of the other one alone.
+  /// Beside a first effect of no size a law may be found whose signature alone promises nothing.
+  FitResult WithSizeAlone(const FitResult& base, FitResult pair) const;
+  /// Whether all effects of a full fit have a size and explain more than what was adopted.
+  bool IsBetter(const FitResult& now, const FitResult& fit) const;
+
   SearchModels& models_;
   AdoptedEffects& adopted_;
   SearchLog& log_;
