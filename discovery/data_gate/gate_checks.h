@@ -76,6 +76,12 @@ void CheckCurrentClocks(const CaseModel& model, const Hypothesis& h, std::vector
 void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
                  std::vector<DataFault>& out);
 
+/// Constant speeds that were not those of the scenario, in records that log no speed: told by the
+/// synchronous line of their readings, where other records or the rig's own unbalance confirm that
+/// lines turn with the speed.
+void CheckTurningSpeeds(const CaseModel& model, const std::vector<double>& predicted,
+                        std::vector<DataFault>& out);
+
 /// Gains of the rig file's controllers against those with which the set-points of all records were
 /// computed.
 void CheckProgram(const CaseModel& model, std::vector<DataFault>& out);

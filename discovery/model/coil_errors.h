@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/model/hypothesis.h"
 #include "discovery/model/nuisances.h"
 #include "effects/effect.h"
 
