@@ -116,6 +116,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     std::ranges::move(faults, std::back_inserter(out));
   if (out.empty()) CheckProgram(model, out);
   if (out.empty()) CheckCurrentClocks(model, h, out);
+  if (out.empty()) CheckExchangedRecords(model, predicted, h, out);
   if (out.empty()) CheckTurningSpeeds(model, predicted, out);
   if (out.empty()) CheckInputs(model, predicted, h, out);
   return out;
@@ -124,8 +125,9 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
 std::vector<DataFault> InspectInputs(const CaseModel& model, const std::vector<double>& predicted,
                                      const Hypothesis& h) {
   std::vector<DataFault> out;
-  CheckTurningSpeeds(model, predicted, out);
-  CheckInputs(model, predicted, h, out);
+  CheckExchangedRecords(model, predicted, h, out);
+  if (out.empty()) CheckTurningSpeeds(model, predicted, out);
+  if (out.empty()) CheckInputs(model, predicted, h, out);
   return out;
 }
 

@@ -76,6 +76,10 @@ void CheckCurrentClocks(const CaseModel& model, const Hypothesis& h, std::vector
 void CheckInputs(const CaseModel& model, const std::vector<double>& predicted, const Hypothesis& h,
                  std::vector<DataFault>& out);
 
+/// Two records each of which agrees with the model under the scenario of the other one.
+void CheckExchangedRecords(const CaseModel& model, const std::vector<double>& predicted,
+                           const Hypothesis& h, std::vector<DataFault>& out);
+
 /// Constant speeds that were not those of the scenario, in records that log no speed: told by the
 /// synchronous line of their readings, where other records or the rig's own unbalance confirm that
 /// lines turn with the speed.

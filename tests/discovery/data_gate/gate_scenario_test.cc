@@ -54,6 +54,34 @@ TEST(GateScenario, DataOfAnotherScenarioAreNamedWithIt) {
     EXPECT_EQ(f.mend, "scenario = \"" + f.with.substr(6) + "\"");
 }
 
+/// Steps at rest twice, the second time with loads that are a fifth larger, measured on a rotor
+/// that is 1 % heavier than the file states, and a third record.
+Case TwoSimilarRecords() {
+  Case c = Measured({}, 0, "multisine at 60 Hz");
+  CaseRecord more = c.records[RecordNamed(c, kStepRecord)];
+  more.data_file = more.scenario_file = "steps with larger loads";
+  for (LoadSpec& l : more.scenario.loads) l.fx *= 1.2, l.fy *= 1.2;
+  c.records.push_back(more);
+  Hypothesis truth;
+  truth.rig = testing::RadialRig();
+  truth.rig.rotor.mass *= 1.01;
+  return testing::MeasuredBy(truth, std::move(c));
+}
+
+// Files of two records that command the same steps, and whose loads differ little.
+TEST(GateScenario, ExchangedRecordsThatDifferLittle) {
+  Case c = TwoSimilarRecords();
+  for (const DataFault& f : FaultsOf(c)) ADD_FAILURE() << FaultText(f);
+  CaseRecord &a = c.records[RecordNamed(c, kStepRecord)], &b = c.records.back();
+  std::swap(a.data, b.data);
+  std::swap(a.quality, b.quality);
+  const std::vector<DataFault> faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].with, b.scenario_file);
+  EXPECT_EQ(faults[1].with, a.scenario_file);
+  for (const DataFault& f : faults) EXPECT_EQ(f.fault, "scenario") << FaultText(f);
+}
+
 /// The record as a logger of another rate would have it, straight between its rows.
 void WithRate(CaseRecord& r, double rate) {
   const Record old = r.data;
