@@ -223,16 +223,33 @@ void TellLostBlocks(const CaseRecord& r, const LostBlocks& lost, std::vector<Dat
                             r.data.TimeAt(lost.blocks[k].row));
 }
 
+/// The clock of a record that was found late by its columns, as late as its commands are for the
+/// controller's program: a wrong parameter of the rig moves the best match of the columns.
+void RefineClock(const CaseModel& model, const CaseRecord& r, DataFault& clock) {
+  const RigParameters& rig = model.data().rig;
+  const BridgedRecord data = ControllerRecord(r.data);
+  const CommandReplay replay =
+      ReplayCommands(rig, r.scenario, data, ControllerAxes(rig, r.scenario, data));
+  const InputFit fit = FitInput(rig, r.scenario, data, replay);
+  if (fit.left > kUndone) return;
+  const double probability = clock.probability;
+  clock = TimeFault(r, "", {fit.late / r.data.rate, 0, fit.left, true});
+  clock.probability = std::max(probability, clock.probability);
+}
+
 }  // namespace
 
 void CheckController(const CaseModel& model, std::size_t record,
                      const std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   const RigParameters& rig = model.data().rig;
-  const bool explained = std::ranges::any_of(columns, &GateColumn::explained);
-  if (!out.empty() || explained || r.imposed != Imposed::kNothing || !r.scenario.faults.empty())
+  if (r.imposed != Imposed::kNothing || !r.scenario.faults.empty() ||
+      !HasControllerBlock(rig, r.scenario, r.data))
     return;
-  if (!HasControllerBlock(rig, r.scenario, r.data)) return;
+  const auto clock = std::ranges::find_if(
+      out, [](const DataFault& f) { return f.fault == "lag" && f.channel.empty(); });
+  if (clock != out.end()) RefineClock(model, r, *clock);
+  if (!out.empty() || std::ranges::any_of(columns, &GateColumn::explained)) return;
   const BridgedRecord data = ControllerRecord(r.data);
   std::vector<ControllerAxis> axes = ControllerAxes(rig, r.scenario, data);
   if (std::ranges::none_of(axes, IsWrong) || !ProgramIsRight(model)) return;

@@ -174,6 +174,17 @@ TEST(GateClocks, ALateRecordBesideAnEffect) {
   }
 }
 
+// A rig of other parameters answers later or earlier than the model; the controller's program does
+// not.
+TEST(GateClocks, ALateRecordOfAnotherRigToTheRow) {
+  Case c = Measured({testing::CrossCouplingAtA(2e5)}, 2.5, kMultisine);
+  Spoil(c, RecordNamed(c, kMultisine), {"lag", "", 0.012}, 1);
+  const std::vector<DataFault> faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "lag") << FaultText(faults[0]);
+  EXPECT_NEAR(faults[0].seconds, 0.012, 1e-6);
+}
+
 // Both axes of two bearings exchanged, beside what the model lacks.
 TEST(GateClocks, PlanesExchangedBesideAnEffect) {
   Case c = BesideAnotherMovement(0.1);
