@@ -4,8 +4,10 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 
 #include "core/base/errors.h"
 #include "core/math/constants.h"
@@ -14,7 +16,9 @@ namespace ambrig {
 
 struct FormulaExpression::Inside {
   mu::Parser parser;
-  std::vector<double> values;  // bound by address: never resized
+  std::vector<double> values;      // bound by address: never resized
+  std::vector<std::size_t> reads;  // places of the values that the formula has in it
+  double result = 0;               // of the values as they stand
 };
 
 namespace {
@@ -98,7 +102,9 @@ FormulaExpression::FormulaExpression(const std::string& text, const std::vector<
     parser.DefineFun("sign", Sign);
     for (std::size_t k = 0; k < names.size(); ++k) parser.DefineVar(names[k], &inside_->values[k]);
     parser.SetExpr(text);
-    parser.Eval();
+    inside_->result = parser.Eval();
+    for (const auto& [name, value] : parser.GetUsedVar())
+      inside_->reads.push_back(static_cast<std::size_t>(value - inside_->values.data()));
   } catch (const mu::Parser::exception_type& e) {
     fail(Reason(e, names));
   }
@@ -108,8 +114,15 @@ FormulaExpression::~FormulaExpression() = default;
 FormulaExpression::FormulaExpression(FormulaExpression&&) noexcept = default;
 
 double FormulaExpression::operator()(const double* values) const {
-  std::copy(values, values + inside_->values.size(), inside_->values.begin());
-  return inside_->parser.Eval();
+  // an integrator asks several times at one instant and angle
+  bool same = true;
+  for (const std::size_t k : inside_->reads) {
+    same = same && std::bit_cast<std::uint64_t>(inside_->values[k]) ==
+                       std::bit_cast<std::uint64_t>(values[k]);
+    inside_->values[k] = values[k];
+  }
+  if (!same) inside_->result = inside_->parser.Eval();
+  return inside_->result;
 }
 
 }  // namespace ambrig

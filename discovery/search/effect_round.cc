@@ -37,6 +37,10 @@ bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
          next.ratio_validate * next.ratio_validate - 1 > 4 * std::max(left, kAtFloor);
 }
 
+bool HoldSameEffects(const Hypothesis& a, const Hypothesis& b) {
+  return std::ranges::equal(a.rig.effects, b.rig.effects, IsSameName);
+}
+
 class Ranker {
  public:
   Ranker(const RoundSetting& s, const FitResult& now, int round)
@@ -85,6 +89,10 @@ class Ranker {
   bool AreStale() const {
     constexpr double kMuch = 2, kHalf = 0.5;  // ratio, share of the error
     if (round_ == 0 || std::min(now_.ratio_fit, now_.ratio_validate) < kMuch) return false;
+    if (std::ranges::all_of(s_.bank.entries(), [&](const SignatureBank::Entry& e) {
+          return HoldSameEffects(*e.base, now_.hypothesis);
+        }))
+      return false;
     const auto share = [&](const Candidate& c) {
       return std::min(ExplainedShare(now_.ratio_fit, c.ratio_fit),
                       ExplainedShare(now_.ratio_validate, c.ratio_validate));
