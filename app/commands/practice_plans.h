@@ -2,6 +2,7 @@
 /// The work behind `ambrig practice --plans`: is the right one of two names found with the record
 /// that `plan` proposes as often as it promises?
 #include "app/commands/command_line.h"
+#include "app/commands/commands.h"
 #include "app/commands/practice_work.h"
 
 namespace ambrig {
