@@ -71,7 +71,8 @@ bool CommissionedDetector::StandsBesideLoop(const CoilVerdict& out) const {
   if (!BesideLoop()) return true;
   const Diagnosis& d = out.diagnosis;
   if (d.cls == FaultClass::kPartialShort)
-    return closed_[d.coil] == 0 && ratios_.Sudden(d.coil) && out.turns == 0;
+    return closed_[d.coil] == 0 && ratios_.Sudden(d.coil) && out.turns == 0 &&
+           out.excess > ExcessLimits::kGrossBeside;
   return d.cls != FaultClass::kCurrentSensor && out.turns == 0;
 }
 

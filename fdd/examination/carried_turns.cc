@@ -18,6 +18,7 @@ constexpr double kLongest = 60e-3;  // [s] afterwards the error of the bridge co
 constexpr double kAsGood = 0.004, kWrong = 0.03;  // of the linkage before: rms of the balance
 constexpr double kOfBest = 0.6;                   // of the least rms: no worse than that
 constexpr double kLeastMove = 0.04;               // of the turns
+constexpr double kMayBlock = 0.04;                // [A] a reading of zero within its noise
 
 /// Parabola through the circuits that run.
 double Between(const double* at, double share) {
@@ -130,7 +131,7 @@ void CarriedTurns::TurnsChange() {
 }
 
 void CarriedTurns::Follow(const Row& row) {
-  if (row.least[coil_] < kConducts && sampling_.amplifier->quadrants <= 2) {
+  if (row.least[coil_] < kMayBlock && sampling_.amplifier->quadrants <= 2) {
     coil_ = -1;
     return;
   }

@@ -56,5 +56,15 @@ TEST(ClosedTurns, CoilsWithoutCurrentAndSuddenLossesAreToldBesideALoop) {
   }
 }
 
+// A loop moves the c of its neighbours by some tenths, now and then within a period: as much is no
+// loss of their turns.
+TEST(ClosedTurns, WhatALoopDoesToItsNeighboursIsNoLossOfTheirTurns) {
+  const std::string fifth = FaultOf(6, "partial-short", "fraction = 0.2", kLater);
+  EXPECT_EQ(SeenBesideLoop(fifth)->Coils(), std::set<int>{6});
+  const auto beside = SeenBesideLoop(FaultOf(3, "partial-short", kLoop) + fifth);
+  EXPECT_EQ(beside->Coils(), std::set<int>{3});
+  EXPECT_TRUE(beside->doubted);
+}
+
 }  // namespace
 }  // namespace ambrig
