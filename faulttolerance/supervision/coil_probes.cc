@@ -54,7 +54,12 @@ bool CoilProbes::Grown(const Look& look) const {
   return OrbitGrew(look.orbit_before, look.orbit_after, kLeastGrowth);
 }
 
+void CoilProbes::ForgetDeratings(double t) {
+  std::erase_if(deratings_, [t](const auto& d) { return d.second.since < t; });
+}
+
 void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
+  ForgetDeratings(t);
   if (cls == FaultClass::kSwitchStuckOn || returned_[coil] > 0) return;
   Look look;
   look.given_up = t;
@@ -67,8 +72,10 @@ void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
 }
 
 void CoilProbes::Derated(int coil, double t, double room, bool closed) {
-  deratings_[coil] = {t + (closed ? kOfLoops : kFirst), std::max(slice_[0].orbit, slice_[1].orbit),
-                      0, (closed ? kLeastOfLoops : kLeastOfRoom) * room};
+  ForgetDeratings(t);
+  deratings_[coil] = {t, t + (closed ? kOfLoops : kFirst),
+                      std::max(slice_[0].orbit, slice_[1].orbit), 0,
+                      (closed ? kLeastOfLoops : kLeastOfRoom) * room};
 }
 
 int CoilProbes::MadeWorse(double t) {

@@ -33,7 +33,8 @@ class CoilProbes {
   /// `closed`: the turns close through a resistance, and what flux they keep out comes slowly.
   void Derated(int coil, double t, double room, bool closed);
   /// The coil after whose derating the orbit grew within 10 ms, by half and by 2.5 % of the
-  /// rotor's room (closed turns: within 60 ms, and by 7.5 %); -1: none. Told once.
+  /// rotor's room (closed turns: within 60 ms, and by 7.5 %), and no other coil was given up or
+  /// derated since; -1: none. Told once.
   int MadeWorse(double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);
@@ -69,8 +70,12 @@ class CoilProbes {
   };
   /// Of a coil that was derated.
   struct Derating {
-    double until = 0, before = 0, after = 0, least_growth = 0;  // [s], [m]
+    double since = 0, until = 0;                     // [s]
+    double before = 0, after = 0, least_growth = 0;  // [m]
   };
+  /// Of coils that were derated before t: an orbit that grows after another coil has failed is that
+  /// coil's.
+  void ForgetDeratings(double t);
   bool FalseCurrentIsOpen(int coil) const;
   bool Grown(const Look& look) const;
   int DueIdle(double t) const;

@@ -64,6 +64,8 @@ class FaultSupervisor : public Supervisor {
   void Doubt(Watched& w, double t, std::vector<RunEvent>& events);
   /// A diagnosis is not acted on: the detector is told that the coil goes on as before.
   static void Refuse(Watched& w, const Diagnosis& d);
+  /// The class of the map with these turns left.
+  std::string ClassOfMap(Watched& w, const CoilVector& turns_left, const BearingControl& control);
   /// The class of the map that would be taken without a coil.
   std::string ClassWithout(Watched& w, int coil, const BearingControl& control);
   /// A coil whose derating made the orbit grow is switched off: its turns are not what its slopes
@@ -72,8 +74,8 @@ class FaultSupervisor : public Supervisor {
   /// Another share of a derated coil's turns carries the shaft than was told at first.
   void FollowCarried(Watched& w, const DetectorAlarm& alarm, double t, bool position_loop,
                      const BearingControl& control, SupervisorOutput& out);
-  /// Whether a coil whose reading is false is the last that carries: what it gives with a false
-  /// reading is more than nothing.
+  /// Whether a coil whose reading is false is the last that carries, or the last of a thrust side:
+  /// what it gives with a false reading is more than nothing.
   bool NothingElseCarries(Watched& w, const DetectorAlarm& alarm, const BearingControl& control);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);

@@ -5,6 +5,7 @@
 #include "actuators/magnetics/whole_lane_vector.h"
 #include "core/base/parameters.h"
 #include "fdd/commissioned/excess_limits.h"
+#include "fdd/commissioned/no_current.h"
 
 namespace ambrig {
 
@@ -56,7 +57,9 @@ void CoilCurrents::Update(const MeasuredPeriod& in, const Lane& share, const Lan
 
 bool CoilCurrents::IsFalse(int coil) const { return false_[coil] >= kMissedTwice; }
 
-bool CoilCurrents::IsMissing(int coil) const { return without_[coil] >= ExcessLimits::kInARow; }
+bool CoilCurrents::IsMissing(int coil) const {
+  return without_[coil] >= ExcessLimits::kInARow && likelihood_[coil] > kSurelyNoCurrent;
+}
 
 bool CoilCurrents::AnySuspect() const {
   for (int j = 0; j < coils_; ++j)
@@ -81,17 +84,22 @@ bool CoilCurrents::LeftToPartner(const MeasuredPeriod& in, int coil, const Lane&
   return own < kRangeOfNoise * noise_ && own < kStill * range(partner);
 }
 
-void CoilCurrents::CountWithout(const MeasuredPeriod& in, const FluxPeriod& flux, const Lane& c,
-                                const Lane& share) {
+void CoilCurrents::CountWithout(const MeasuredPeriod& in, const FluxPeriod& flux,
+                                const SlopeExcess& excess, const Lane& c, const Lane& share) {
   for (int j = 0; j < coils_; ++j) {
     // The diodes of a coil that is asked for no current block: its flux stands, whatever the bridge
     // does.
     const bool asked = !in.set_point || (*in.set_point)[j] > kAsked;
+    const bool left_to_partner = LeftToPartner(in, j, share);
     const bool dead =
         (flux.largest[j] < kConducts && c[j] < -(asked ? ExcessLimits::kGross : kDeadIdle)) ||
-        LeftToPartner(in, j, share);
-    if (without_[j] == 0) since_[j] = in.t;
+        left_to_partner;
+    if (without_[j] == 0) {
+      since_[j] = in.t;
+      likelihood_[j] = 0;
+    }
     without_[j] = dead ? without_[j] + 1 : 0;
+    likelihood_[j] += left_to_partner ? kSurelyNoCurrent : LikelihoodOfNoCurrent(excess, j);
   }
 }
 

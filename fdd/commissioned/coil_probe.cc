@@ -4,6 +4,7 @@
 
 #include "fdd/commissioned/excess_lanes.h"
 #include "fdd/commissioned/excess_limits.h"
+#include "fdd/commissioned/no_current.h"
 
 namespace ambrig {
 
@@ -31,7 +32,9 @@ void CoilProbe::Add(const SlopeExcess& e, double largest) {
   if (++periods_ <= kCalmPeriods) return;
   const double top = e.top[0][coil_] + e.top[1][coil_],
                bottom = e.bottom[0][coil_] + e.bottom[1][coil_];
-  without_ = bottom > 0 && top < kNoSlope * bottom ? without_ + 1 : 0;
+  const bool without = bottom > 0 && top < kNoSlope * bottom;
+  likelihood_ = without ? likelihood_ + LikelihoodOfNoCurrent(e, coil_) : 0;
+  without_ = without ? without_ + 1 : 0;
   if (no_current()) answer_ = ProbeAnswer::kFaulty;
   if (periods_ <= kCurrentSettled) return;
   idle_ += largest < kIdle;
@@ -57,6 +60,10 @@ void CoilProbe::WatchOthers(const SlopeExcess& e) {
     gross_[j] = gross && calm_[j] ? gross_[j] + 1 : 0;
     if (gross_[j] >= kInARow && answer_ == ProbeAnswer::kNone) answer_ = ProbeAnswer::kInterrupted;
   }
+}
+
+bool CoilProbe::no_current() const {
+  return (without_ >= kInARow && likelihood_ > kSurelyNoCurrent) || idle_ >= kSettledPeriods;
 }
 
 double CoilProbe::excess() const {

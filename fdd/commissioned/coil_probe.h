@@ -25,15 +25,16 @@ class CoilProbe {
   void WatchOthers(const SlopeExcess& period);
   ProbeAnswer answer() const { return answer_; }
   /// Whether the answer is that no current came at all.
-  bool no_current() const { return without_ >= kInARow || idle_ >= kSettledPeriods; }
+  bool no_current() const;
   /// Its c over the settled periods; 0 before [-].
   double excess() const;
 
  private:
-  static constexpr int kInARow = 3;           // periods without a slope: enough
+  static constexpr int kInARow = 3;           // periods without a slope: enough if they are sure
   static constexpr int kSettledPeriods = 20;  // of a probe, without current: enough
   int coil_ = -1, periods_ = 0, without_ = 0;
-  int idle_ = 0;  // settled periods without current
+  int idle_ = 0;           // settled periods without current
+  double likelihood_ = 0;  // of the periods without a slope (no_current.h)
   double band_ = 0;
   int gross_[kLanes] = {};  // periods in a row, of the other coils
   bool calm_[kLanes] = {};  // whether a period of theirs was not gross

@@ -12,7 +12,9 @@ struct CoilVerdict {
   bool doubtful = false;  // of the model, in this period
   Diagnosis diagnosis;
   std::vector<Diagnosis> more;  // of other coils, decided together with it
-  double excess = 0;            // c of the decided coil, the periods of the decision [-]
+  // the other winding of a thrust side whose ripple a loop of the decided one keeps out: whole
+  std::vector<Diagnosis> beside;
+  double excess = 0;  // c of the decided coil, the periods of the decision [-]
   // share of its turns that the decided coil truly has, where it had been taken for one with fewer;
   // 0: not so
   double turns = 0;

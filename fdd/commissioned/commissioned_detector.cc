@@ -9,11 +9,8 @@ namespace {
 
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr double kLeastProbeBand = 0.08, kOfGivenUp = 0.5;  // of |c| that it was given up for
-constexpr double kLeastLoop = 0.3;  // of the turns by the ripple: less does no harm, whatever it is
-// Slopes over healthy ones, of what a loop that keeps all flux out of its pole makes of them
-constexpr double kLeastOfLoop = 0.6, kMostOfLoop = 2.5;
-constexpr int kBeforeProbe = 3;                   // window of 40 periods
-constexpr int kAfterProbe = 8, kAfterShare = 25;  // periods
+constexpr int kBeforeProbe = 3;                             // window of 40 periods
+constexpr int kAfterProbe = 8, kAfterShare = 25;            // periods
 
 }  // namespace
 
@@ -57,22 +54,13 @@ bool CommissionedDetector::AllAreWhole() const {
   return std::all_of(share, share + filter_.nominal().coils, [](double left) { return left == 1; });
 }
 
-bool CommissionedDetector::MayBeLoop(int coil) const {
-  const double left = share(coil);
-  if (left == 0 || left == 1) return false;
-  const LinkageModel& m = filter_.nominal();
-  const double steeper = 1 / (left * left),
-               of_loop = m.SelfInductanceAt(coil, 0, 0) / m.leakage[coil];
-  return closed_[coil] > 0 || (steeper > kLeastOfLoop * of_loop && steeper < kMostOfLoop * of_loop);
-}
-
 void CommissionedDetector::TakeShare(int coil, double share) {
   // A loop goes on in the flux of its pole when the coil is switched off.
   if (share == 0 || share == 1) closed_[coil] = share == 0 && MayBeLoop(coil) ? 1 : 0;
   turns_.share[coil] = share;
   turns_.taken[coil] = count_;
   filter_.SetTurns(coil, share);
-  carried_.TurnsChange(coil);
+  carried_.TurnsChange();
   ratios_.ClearWindows();
   // Turns that close through a resistance carry a current of their own, which no share expresses;
   // they do so too where the coil is switched off afterwards.
@@ -164,7 +152,7 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
     --paused_;
     decision_.ForgetStreaks();
     jumps_.Forget();
-    currents_.CountWithout(in, period_, ratios_.now(), turns_.share);
+    currents_.CountWithout(in, period_, excess_, ratios_.now(), turns_.share);
     return decision_.WithoutCurrent(Evidence(in));
   }
   CoilVerdict out = Judge(Evidence(in));
@@ -193,14 +181,6 @@ void CommissionedDetector::TellStep(const MeasuredPeriod& in, int coil, CoilVerd
   out->diagnosis = {coil, FaultClass::kCurrentSensor, 0, end, jumps_.onset(), 1};
 }
 
-void CommissionedDetector::FollowCarried(const MeasuredPeriod& in, bool comparable) {
-  if (comparable)
-    carried_.Keep(in, period_, currents_.mean());
-  else
-    carried_.Clear();
-  if (carried_.moved() && carried_.share() < 1) closed_[carried_.coil()] = 1;
-}
-
 std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in) {
   const int coil = swing_.Period(in, turns_.share);
   if (!swing_.unsettled()) return {};
@@ -220,29 +200,6 @@ std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in
   decision_.ForgetStreaks();
   decision_.ForgetPeriods();
   return out;
-}
-
-void CommissionedDetector::TellCarried(CoilVerdict* out) {
-  // Other coils that lost turns, now or before, move the flux of this one, too.
-  Diagnosis& d = out->diagnosis;
-  if (d.cls != FaultClass::kPartialShort || d.ripple_fraction < kLeastLoop || !out->more.empty() ||
-      !AllAreWhole())
-    return;
-  d.fraction = step_.Lost(d.coil, d.onset, d.ripple_fraction);
-  closed_[d.coil] = d.fraction < d.ripple_fraction ? 1 : 0;
-  carried_.Begin(d.coil, d.onset, 1 - d.fraction, 1 - d.ripple_fraction);
-}
-
-bool CommissionedDetector::BesideLoop() const {
-  return *std::max_element(closed_.v, closed_.v + kLanes) > 0;
-}
-
-bool CommissionedDetector::StandsBesideLoop(const CoilVerdict& out) const {
-  if (!BesideLoop()) return true;
-  const Diagnosis& d = out.diagnosis;
-  if (d.cls == FaultClass::kPartialShort)
-    return closed_[d.coil] == 0 && ratios_.Sudden(d.coil) && out.turns == 0;
-  return d.cls != FaultClass::kCurrentSensor && out.turns == 0;
 }
 
 void CommissionedDetector::Skip() {
@@ -271,7 +228,7 @@ CoilVerdict CommissionedDetector::Judge(const CoilEvidence& seen) {
   // although it has no current.
   const bool shares_flux = filter_.nominal().coupling == Coupling::kSides && currents_.AnySuspect();
   if (!calm || shares_flux)
-    currents_.CountWithout(seen.in, period_, ratios_.now(), turns_.share);
+    currents_.CountWithout(seen.in, period_, excess_, ratios_.now(), turns_.share);
   else
     currents_.ForgetWithout();
   if (shares_flux)

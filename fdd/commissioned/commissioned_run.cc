@@ -48,6 +48,7 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   alarm.more = seen.more;
   Lose(d);
   for (const Diagnosis& other : alarm.more) Lose(other);
+  for (const Diagnosis& other : seen.beside) Lose(other);
   return alarm;
 }
 

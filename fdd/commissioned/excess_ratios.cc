@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
 constexpr double kGrossBand = 0.1;     // of |c| beyond what is gross, against the windows'
+constexpr double kNoiseOfGross = 4;    // sd of c: gross values that may be noise are no suspicion
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
 // least band of c < 0: a reading that is low by less is no reason to give up a coil, and
@@ -48,7 +49,9 @@ template <class V>
   Store(out.top->v, a);
   Store(out.bottom->v, b);
   Store(out.now->v, c);
-  Store(out.ratio->v, Only(gross, size * (1 / kGrossBand)));
+  // 1/b is the variance of c.
+  const auto told = Below(kNoiseOfGross * kNoiseOfGross, size * size * b);
+  Store(out.ratio->v, Only(gross & told, size * (1 / kGrossBand)));
   Store(out.level->v, level);
   // What a fault throws at its neighbours in its first period would stay in their windows.
   const V starts_at_zero = Only(Below(zero, LoadAs<V>(e.gross.v)), one);
@@ -64,17 +67,22 @@ AMBRIG_WIDE bool JudgePeriodInHalves(const SlopeExcess& e, const PeriodLimits& l
   return JudgeOnePeriod<LaneVector>(e, limits, out);
 }
 
-/// The largest of the windows; coils apart keep their own.
+/// The largest of the windows, and c of that window; coils apart keep their own.
 AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& apart,
-                              const Lane& level_now, double least_below, Lane* ratio, Lane* level) {
+                              const Lane& level_now, double least_below, Lane* ratio,
+                              Lane* standing_out, Lane* level) {
   const LaneVector zero;
   const auto counts = Load(apart.v) == zero;
-  LaneVector most = Load(ratio->v);
+  LaneVector most = Load(ratio->v), of_most = Load(standing_out->v);
   for (int w = 0; w < kExcessWindows; ++w) {
-    const LaneVector c = Load(used[w].v), healthy = Load(band[w].v);
-    most = Max(most, Only(counts, Abs(c) / Select(c < zero, Max(healthy, least_below), healthy)));
+    const LaneVector c = Load(used[w].v), healthy = Load(band[w].v),
+                     over = Only(counts,
+                                 Abs(c) / Select(c < zero, Max(healthy, least_below), healthy));
+    of_most = Select(most < over, c, of_most);
+    most = Max(most, over);
   }
   Store(ratio->v, most);
+  Store(standing_out->v, of_most);
   Store(level->v, Select(counts, Abs(Load(level_now.v)), Load(level->v)));
 }
 
@@ -94,7 +102,7 @@ void ExcessRatios::Update(const SlopeExcess& excess, const Conditions& in) {
       excess, limits,
       {&recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_, &apart_});
   FindSudden(in.count);
-  if (relies_ && in.left && CountSudden()) gross = true;
+  if (relies_ && in.left && CountSudden(recent_[place].bottom)) gross = true;
   // What a model does not express keeps flux out in many coils: those are not the suspects.
   if (!relies_ && gross && GrossCoils() >= ExcessLimits::kCoilsAtOnce)
     for (int j = 0; j < coils_; ++j)
@@ -110,8 +118,9 @@ void ExcessRatios::Update(const SlopeExcess& excess, const Conditions& in) {
 void ExcessRatios::CompareWindows(const ExcessBands& bands) {
   Lane used[kExcessWindows];
   windows_.UsedOfAll(ExcessLimits::kNoiseOfBand, used);
+  standing_out_ = now_;
   JudgeWindows(used, bands.of_windows(), apart_, used[kLevelWindow], least_below_, &ratio_,
-               &level_);
+               &standing_out_, &level_);
 }
 
 void ExcessRatios::Skip(bool gross_before) {
@@ -145,10 +154,11 @@ void ExcessRatios::FindSudden(long long count) {
   }
 }
 
-bool ExcessRatios::CountSudden() {
+bool ExcessRatios::CountSudden(const Lane& bottom) {
   bool any = false;
   for (int j = 0; j < coils_; ++j) {
-    if (sudden_[j] == 0 || now_[j] < ExcessLimits::kGross || ratio_[j] > 0) continue;
+    const bool told = now_[j] * now_[j] * bottom[j] > kNoiseOfGross * kNoiseOfGross;
+    if (sudden_[j] == 0 || now_[j] < ExcessLimits::kGross || ratio_[j] > 0 || !told) continue;
     ratio_[j] = now_[j] / kGrossBand;
     level_[j] = now_[j];
     any = true;

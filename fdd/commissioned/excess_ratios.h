@@ -48,6 +48,9 @@ class ExcessRatios {
   bool calm() const { return calm_; }
   /// c over the last three periods [-].
   double Recent(int coil) const;
+  /// Whether c over the last three periods has the sign of the c that stands out. In the noise of
+  /// three periods a short of a few percent is, now and then, a reading that is too low.
+  bool RecentAgrees(int coil) const { return Recent(coil) * standing_out_[coil] > 0; }
   /// Largest |c| of this period.
   double LargestNow() const;
   int GrossCoils() const;  // with c > 0.5 in this period
@@ -67,8 +70,9 @@ class ExcessRatios {
   void FindJumps();
   void FindSudden(long long count);
   /// Coils whose c became gross at once count where only those beyond the limit of a flux outside
-  /// its range would: what iron does there comes slowly. Whether there is any.
-  bool CountSudden();
+  /// its range would: what iron does there comes slowly. `bottom`: weights of the period. Whether
+  /// there is any.
+  bool CountSudden(const Lane& bottom);
 
   int coils_;
   bool relies_;
@@ -76,6 +80,7 @@ class ExcessRatios {
   double least_below_;    // least band of c < 0 [-]
   ExcessWindows windows_;
   Lane ratio_, now_, apart_;  // apart_: 1 where only gross values count
+  Lane standing_out_;         // c of the window with the largest ratio, of a period not calm
   Lane level_;                // |c|, of gross coils now, else of ten periods
   bool calm_ = false;
   std::array<Sums, ExcessLimits::kInARow> recent_;

@@ -45,6 +45,7 @@ CoilVerdict FaultDecision::Judge(const CoilEvidence& seen) {
   if (seen.count < mismatch_until_) return InMismatch(seen, out);
   out.excess = seen.ratios.Recent(coil);
   if (!JudgedTogether(seen, &out)) {
+    if (!seen.ratios.RecentAgrees(coil)) return out;
     out.turns = MoreTurns(seen, coil, out.excess);
     out.decided = out.turns > 0 || seen.Suffices(coil, out.excess);
     if (!out.decided) return out;

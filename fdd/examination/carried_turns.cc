@@ -18,6 +18,7 @@ constexpr double kLongest = 60e-3;  // [s] afterwards the error of the bridge co
 constexpr double kAsGood = 0.004, kWrong = 0.03;  // of the linkage before: rms of the balance
 constexpr double kOfBest = 0.6;                   // of the least rms: no worse than that
 constexpr double kLeastMove = 0.04;               // of the turns
+constexpr double kMayBlock = 0.04;                // [A] a reading of zero within its noise
 
 /// Parabola through the circuits that run.
 double Between(const double* at, double share) {
@@ -78,7 +79,7 @@ void CarriedTurns::Keep(const MeasuredPeriod& in, const FluxPeriod& flux, const 
     charge_[j] += mean[j] * period;
   }
   Row& row = row_[static_cast<std::size_t>(count_++ % kKept)];
-  row = {in, *in.duty, mean, volts_, charge_};
+  row = {in, *in.duty, mean, flux.least_on, volts_, charge_};
   if (coil_ >= 0) {
     Follow(row);
     if (followed_ >= kFirstTold && followed_ % kTellEvery == 0) Tell();
@@ -120,16 +121,20 @@ void CarriedTurns::Begin(int coil, double onset, double share, double least) {
   }
   std::fill_n(&lagging_[0][0], kShares * kLags, flux_);
   std::fill_n(&error_[0][0], kShares * kLags, 0.0);
-  for (long long p = last + 1; p < count_; ++p) Follow(kept(p));
+  for (long long p = last + 1; p < count_ && running(); ++p) Follow(kept(p));
   followed_ = 0;
 }
 
-void CarriedTurns::TurnsChange(int coil) {
-  if (coil_ >= 0 && (coil != coil_ || followed_ > 0)) coil_ = -1;
+void CarriedTurns::TurnsChange() {
+  if (followed_ > 0) coil_ = -1;
   mark_ = {};
 }
 
 void CarriedTurns::Follow(const Row& row) {
+  if (row.least[coil_] < kMayBlock && sampling_.amplifier->quadrants <= 2) {
+    coil_ = -1;
+    return;
+  }
   ++followed_;
   const double period = sampling_.step * sampling_.samples;
   const double main = coils_.gain[coil_] * whole_.inductances()[coil_];

@@ -11,7 +11,9 @@
 /// from the last healthy period on. What the bridge adds to its voltage is taken from the same
 /// balance before the fault. The pair (a, tau) is sought on a grid by least squares; all a whose
 /// error is about as small as the least one are possible, and the share told before moves no
-/// further than to the nearest of them. Turns that are bypassed obey the same with tau = 0.
+/// further than to the nearest of them. Turns that are bypassed obey the same with tau = 0. Where
+/// the current comes near zero the diodes may block, and the balance ends: the volt-seconds of the
+/// bridge are not the coil's any more.
 #include <array>
 
 #include "fdd/circuit/slope_excess.h"
@@ -32,8 +34,8 @@ class CarriedTurns {
   /// `least` by the slopes of the ripple. `onset`: start of the first period that looked faulty
   /// [s]. Nothing follows where too little of before is known.
   void Begin(int coil, double onset, double share, double least);
-  /// Other turns of `coil` are believed: ends what was not begun in this period.
-  void TurnsChange(int coil);
+  /// Other turns of some coil are believed: ends what was not begun in this period.
+  void TurnsChange();
 
   bool running() const { return coil_ >= 0; }
   int coil() const { return coil_; }
@@ -49,6 +51,7 @@ class CarriedTurns {
   struct Row {
     MeasuredPeriod in;   // without its samples
     Lane duty, mean;     // [-], [A]
+    Lane least;          // current in the on phase [A]
     Lane volts, charge;  // integrals up to its end [Vs], [As]
   };
   struct Mark {

@@ -13,9 +13,11 @@ namespace {
 constexpr std::size_t kFewestOfLine = 6;  // samples on either side of the instant
 constexpr double kLeastFollowing = 0.25;  // of a coil's inductance at the ripple, its flux
 constexpr double kAsBypassed = 0.4;       // of the step that bypassed turns make
-constexpr double kLeastStepping = 0.3;    // [A] of which a step can be told
-constexpr double kSeenOfExcess = 0.4;     // of c, by the slopes before and after the instant
-constexpr double kSearched = 1.5;         // periods before and after the onset
+// the same of both windings of a side: a short-lived loop of many turns in one makes half of it
+constexpr double kAsBothBypassed = 0.7;
+constexpr double kLeastStepping = 0.3;  // [A] of which a step can be told
+constexpr double kSeenOfExcess = 0.4;   // of c, by the slopes before and after the instant
+constexpr double kSearched = 1.5;       // periods before and after the onset
 
 /// Least squares of y over x, from prefix sums.
 struct LineSums {
@@ -36,6 +38,7 @@ struct LineSums {
 
 struct FluxStep::Curve {
   std::vector<double> t, current, linkage, volts;  // [s], [A], [Vs], [Vs]
+  std::vector<double> own;                         // of the ampere-turns that drive its flux
 };
 
 FluxStep::FluxStep(const LinkageModel& nominal, const SamplingSettings& sampling)
@@ -63,7 +66,10 @@ FluxStep::Curve FluxStep::CurveOf(int coil) const {
       if (nominal_.coupling == Coupling::kFloatingRotor)
         for (int j = 0; j < nominal_.coils; ++j) potential += P[j] * nominal_.n[j] * i[j];
       double mmf = n * i[coil] - (potential != 0 ? potential / s.permeance.total : 0);
-      if (nominal_.coupling == Coupling::kSides) mmf += nominal_.n[coil ^ 1] * i[coil ^ 1];
+      const double of_partner =
+          nominal_.coupling == Coupling::kSides ? nominal_.n[coil ^ 1] * i[coil ^ 1] : 0;
+      out.own.push_back(of_partner != 0 ? n * i[coil] / (n * i[coil] + of_partner) : 1);
+      mmf += of_partner;
       const double until_edge = std::clamp(edge - (k - 1) * h, 0.0, h);
       const double driven = k == 0 ? after * h : on * until_edge + off * (h - until_edge);
       volts += driven - nominal_.resistance[coil] * i[coil] * h;
@@ -82,7 +88,7 @@ double FluxStep::Follows(int coil, double a) const {
   return 1 - a * nominal_.leakage[coil] / nominal_.SelfInductanceAt(coil, last.in.x1, last.in.y1);
 }
 
-double FluxStep::Lost(int coil, double onset, double by_ripple) const {
+std::optional<double> FluxStep::Lost(int coil, double onset, double by_ripple, bool of_both) const {
   const Curve c = CurveOf(coil);
   const std::size_t samples = c.t.size();
   const double period = sampling_.step * sampling_.samples;
@@ -102,11 +108,11 @@ double FluxStep::Lost(int coil, double onset, double by_ripple) const {
     }
   }
   // Where the diodes may block, the volt-seconds of the duty are not the coil's.
-  if (at == 0 || *std::ranges::min_element(c.current) < kLeastStepping) return by_ripple;
+  if (at == 0 || *std::ranges::min_element(c.current) < kLeastStepping) return {};
   // Without the instant among what is kept both lines have one slope, and nothing can be told.
   const double whole_slope = sums[at].slope(), left_slope = (sums[samples] - sums[at]).slope(),
                excess = 1 / ((1 - by_ripple) * (1 - by_ripple)) - 1;
-  if (!(left_slope > whole_slope * (1 + kSeenOfExcess * excess))) return by_ripple;
+  if (!(left_slope > whole_slope * (1 + kSeenOfExcess * excess))) return {};
   // Of the last period after the instant, by the slope that the ripple of turns that are left has.
   const double a = whole_slope;
   const double b = a / ((1 - by_ripple) * (1 - by_ripple));
@@ -117,13 +123,15 @@ double FluxStep::Lost(int coil, double onset, double by_ripple) const {
     step += c.linkage[k] - whole - b * (c.volts[k] - c.volts[at - 1]);
     n += 1;
   }
-  if (n == 0 || !(whole > 0)) return by_ripple;
+  if (n == 0 || !(whole > 0)) return {};
   const double lost = step / n / (b * whole);  // s (1 - s)
   // The leakage keeps its own share of the linkage, the larger the less flux follows the ripple.
   const double follows = Follows(coil, a);
-  if (follows < kLeastFollowing) return by_ripple;
-  const double bypassed = follows * by_ripple * (1 - by_ripple);
-  if (!(lost < kAsBypassed * bypassed)) return by_ripple;
+  if (follows < kLeastFollowing) return {};
+  // One winding's own ampere-turns step, of those that drive the flux of a side.
+  const double own = of_both ? 1 : c.own[at - 1];
+  const double bypassed = follows * by_ripple * (1 - by_ripple) * own;
+  if (!(lost < (of_both ? kAsBothBypassed : kAsBypassed) * bypassed)) return by_ripple;
   return lost > 0 ? 0.5 - std::sqrt(0.25 - std::min(lost, 0.25)) : 0;
 }
 

@@ -15,10 +15,14 @@
 ///
 ///   J = lambda - lambda* - b (W - W*) = f b s (1 - s) lambda*,   0 at first for a loop;
 ///
-/// f: part of the inductance at the ripple that is not leakage, whose linkage stays, too.
+/// f: part of the inductance at the ripple that is not leakage, whose linkage stays, too. Of a
+/// winding of a thrust side J is less by the share that it has of the ampere-turns of its side. A
+/// loop keeps the ripple's flux from both windings there, so that the slopes of both are those of
+/// windings that have lost half of their turns.
 ///
 /// The instant is the one at which two straight lines over W leave the least error.
 #include <array>
+#include <optional>
 
 #include "fdd/measurement/kept_period.h"
 
@@ -33,8 +37,9 @@ class FluxStep {
 
   /// Share of the turns without which the coil's flux is, of a coil that has lost `by_ripple` of
   /// them by its slopes: about `by_ripple` where they are bypassed, less for a loop. `onset`: start
-  /// of the first period that looked faulty [s]. by_ripple where too little is known.
-  double Lost(int coil, double onset, double by_ripple) const;
+  /// of the first period that looked faulty [s]. `of_both`: both windings of a thrust side are
+  /// taken to have lost as many, so that both step. Nothing where too little is known.
+  std::optional<double> Lost(int coil, double onset, double by_ripple, bool of_both) const;
 
  private:
   static constexpr int kKept = 12;

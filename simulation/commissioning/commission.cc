@@ -50,13 +50,21 @@ CommissioningResult Commission(const RigParameters& rig, const CommissioningOpti
   if (options.progress) engine.progress = [&](double done) { options.progress(0.3 * done); };
   CommissioningResult out;
   out.run = SwitchingEngine(rig, scenario, engine).Run();
-  for (const RunEvent& e : out.run.events)
-    if (e.kind == "touchdown")
+  for (const RunEvent& e : out.run.events) {
+    if (e.kind != "touchdown") continue;
+    // Lost while the loop settled: no signal has moved it yet.
+    if (e.t * rig.controller.rate < 1)
       throw InputError(
-          fmt::format("{}: the rotor touches in its commissioning run at t = {:.4f} s "
-                      "of {} s ({}), allowed: smaller signals (--circle, --pulse, "
-                      "--chirp) or a lower --speed",
-                      rig.file, e.t, scenario.duration, e.target));
+          fmt::format("{}: the rotor touches before the signals of its commissioning run begin "
+                      "({}): its loop does not hold it, allowed: one that ambrig analyze calls "
+                      "stable, with force for the weight",
+                      rig.file, e.target));
+    throw InputError(
+        fmt::format("{}: the rotor touches in its commissioning run at t = {:.4f} s "
+                    "of {} s ({}), allowed: smaller signals (--circle, --pulse, "
+                    "--chirp) or a lower --speed",
+                    rig.file, e.t, scenario.duration, e.target));
+  }
   out.model.machine = MachineOfFile(rig.file);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     if (options.stop && options.stop->load()) throw Interrupted();

@@ -78,5 +78,30 @@ TEST(LeastHarm, AThrustSideThatIsLeftAloneIsNotDrivenBelowZero) {
   }
 }
 
+// The last winding of a side whose reading is a fifth too small still pulls; a side without any
+// leaves the shaft to the stop.
+TEST(LeastHarm, TheLastWindingOfAThrustSideIsNotGivenUpForALittleFalseReading) {
+  const RunResult r =
+      RunOf(Example("heavy_compressor/rig.toml"),
+            "duration = 0.3\nseed = 1\n[speed]\nprofile = [[0.0, 500.0]]\n"
+            "[[fault]]\ntime = 0.1\ntarget = \"Z.coil4\"\nkind = \"open\"\n"
+            "[[fault]]\ntime = 0.15\ntarget = \"Z.coil3\"\nkind = \"current-sensor\"\n"
+            "parameters = { gain = 0.8 }\n");
+  EXPECT_EQ(GivenUp(r), std::set<std::string>{"Z.coil4"});
+  EXPECT_FALSE(r.touchdown);
+}
+
+// A loop of shorted turns in one winding of a thrust side keeps the ripple out of the flux of both:
+// driven as if each had lost half of its turns, they pull with four times the force.
+TEST(LeastHarm, ALoopInAThrustWindingIsNotDrivenAsHalfOfBoth) {
+  const RunResult r =
+      RunOf(Example("heavy_compressor/rig.toml"),
+            "duration = 0.2\nseed = 1\n[speed]\nprofile = [[0.0, 500.0]]\n[[load]]\n"
+            "plane = \"Z\"\nforce = 150.0\n[[fault]]\ntime = 0.1\ntarget = \"Z.coil3\"\n"
+            "kind = \"partial-short\"\nparameters = { fraction = 0.2, short_resistance = 0.2 }\n");
+  EXPECT_EQ(GivenUp(r), std::set<std::string>{"Z.coil3"});
+  EXPECT_FALSE(r.touchdown);
+}
+
 }  // namespace
 }  // namespace ambrig

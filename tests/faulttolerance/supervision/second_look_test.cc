@@ -127,6 +127,22 @@ TEST(SecondLook, AnActionAfterWhichTheOrbitGrowsIsDoubtedAtOnce) {
   EXPECT_TRUE(run(0.01, 40e-6));
 }
 
+// The orbit that grows after a second coil has failed is not the work of the first derating.
+TEST(SecondLook, AnOrbitThatGrowsAfterAnotherFaultIsNotThatOfADerating) {
+  for (const bool another : {false, true}) {
+    CoilProbes probes;
+    int worse = -1;
+    for (int n = 0; n < 1500; ++n) {
+      const double t = n * 40e-6;
+      if (n == 1000) probes.Derated(2, t, 200e-6, true);
+      if (n == 1100 && another) probes.GivenUp(5, FaultClass::kOpen, t);
+      probes.Orbit(t, n < 1150 ? 5e-6 : 60e-6, 0);
+      worse = std::max(worse, probes.MadeWorse(t));
+    }
+    EXPECT_EQ(worse, another ? -1 : 2);
+  }
+}
+
 TEST(SecondLook, AHealthyCoilReturnsOnceAndASwitchThatStaysOnIsNeverProbed) {
   CoilProbes probes;
   probes.GivenUp(1, FaultClass::kSwitchStuckOn, 0);

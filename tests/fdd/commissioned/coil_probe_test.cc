@@ -55,6 +55,15 @@ TEST(CoilProbe, NoSlopeAtAllIsToldAtOnce) {
   EXPECT_TRUE(probe.no_current());
 }
 
+// With a deviation of 0.45 three periods in a row are below -0.7 now and then.
+TEST(CoilProbe, NoSlopeWithinTheNoiseIsNotToldAtOnce) {
+  CoilProbe probe;
+  probe.Begin(kProbed, 0, 0.2);
+  for (const SlopeExcess& e : {Sums(-0.8, -0.8, 2.5), Sums(0.2, 0.2, 2.5)}) AnswerTo(probe, e, 6);
+  EXPECT_FALSE(probe.no_current());
+  EXPECT_EQ(probe.answer(), ProbeAnswer::kNone);
+}
+
 TEST(CoilProbe, EndsWhenAnotherCoilFails) {
   CoilProbe probe;
   probe.Begin(kProbed, 0, 0.2);

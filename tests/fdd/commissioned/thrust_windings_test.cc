@@ -65,6 +65,35 @@ TEST(ThrustWindings, NoSecondLossOnOneSideIsNamedSoonAfterTheFirst) {
   EXPECT_LT(other->found[1].time, 0.0510077);
 }
 
+// A loop of shorted turns keeps the ripple out of the flux of both windings: by their slopes each
+// has lost half of its turns. The other winding is whole, and what carries is told afterwards.
+TEST(ThrustWindings, ALoopInOneWindingIsNoLossOfBoth) {
+  for (const int coil : {1, 4})
+    for (const char* loop :
+         {"fraction = 0.2, short_resistance = 0.02", "fraction = 0.1, short_resistance = 0.01"}) {
+      const auto seen =
+          Concluded(ThrustPlant().rig, &ThrustPlant().bearing,
+                    Operation(FaultOf(coil, "partial-short", loop, kOnset, "Z"), 0.06));
+      ASSERT_EQ(seen->Coils(), std::set<int>{coil}) << loop;
+      EXPECT_LT(seen->found[0].fraction, 0.15) << loop;
+      EXPECT_GT(seen->found[0].ripple_fraction, 0.3) << loop;
+      for (const auto& [other, carried] : seen->carried) {
+        EXPECT_EQ(other + 1, coil) << loop;
+        EXPECT_GT(carried, 0.65) << loop;  // grid of 0.05
+      }
+    }
+}
+
+TEST(ThrustWindings, HalfOfTheTurnsOfBothAreTold) {
+  const auto seen =
+      Concluded(ThrustPlant().rig, &ThrustPlant().bearing,
+                Operation(FaultOf(3, "partial-short", "fraction = 0.5", kOnset, "Z") +
+                              FaultOf(4, "partial-short", "fraction = 0.5", kOnset, "Z"),
+                          0.04));
+  ASSERT_EQ(seen->Coils(), (std::set<int>{3, 4}));
+  for (const Diagnosis& d : seen->found) EXPECT_NEAR(d.fraction, 0.5, 0.06);
+}
+
 TEST(ThrustWindings, AHealthyBearingIsLeftAlone) {
   const auto seen = Concluded(ThrustPlant().rig, &ThrustPlant().bearing, Operation("", 0.1));
   EXPECT_TRUE(seen->found.empty());

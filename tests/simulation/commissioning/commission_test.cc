@@ -140,6 +140,19 @@ TEST(Commission, AMachineThatTouchesInItsRunIsRefused) {
   EXPECT_THROW(Commission(ReferenceRig(), options), InputError);
 }
 
+// No smaller signal helps a rotor that its magnets cannot carry.
+TEST(Commission, AMachineThatItsLoopDoesNotHoldIsToldSo) {
+  RigParameters rig = ReferenceRig();
+  rig.rotor.mass = 100;
+  try {
+    Commission(rig, {});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("its loop does not hold it"), std::string::npos)
+        << e.what();
+  }
+}
+
 /// c1, s1, c2 of a surface that is not round; y sees it a quarter of a turn later.
 constexpr double kC1 = 1.4e-5, kS1 = 1.4e-5, kC2 = 5e-6;
 
