@@ -116,10 +116,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     std::ranges::move(faults, std::back_inserter(out));
   if (out.empty()) CheckProgram(model, out);
   if (out.empty()) CheckCurrentClocks(model, h, out);
-  if (out.empty()) CheckExchangedRecords(model, predicted, h, out);
-  if (out.empty()) CheckTurningSpeeds(model, predicted, out);
-  if (out.empty()) CheckInputs(model, predicted, h, out);
-  return out;
+  return out.empty() ? InspectInputs(model, predicted, h) : out;
 }
 
 std::vector<DataFault> InspectInputs(const CaseModel& model, const std::vector<double>& predicted,

@@ -35,8 +35,9 @@ struct DataFault {
 std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
                                    const Hypothesis& h);
 
-/// Faults `scenario` of loads and commands that acted otherwise than stated, which show where the
-/// other records agree: beside parameters that were fitted, as `predicted` and `h` are.
+/// Faults `scenario` of exchanged records, of speeds that were not logged, and of loads and
+/// commands that acted otherwise than stated, which show where the other records agree: beside
+/// parameters that were fitted, too, as `predicted` and `h` then are.
 std::vector<DataFault> InspectInputs(const CaseModel& model, const std::vector<double>& predicted,
                                      const Hypothesis& h);
 

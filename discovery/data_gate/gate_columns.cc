@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "core/record/channels.h"
+#include "discovery/case/case_file.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/model/nuisance_kinds.h"
+#include "discovery/model/record_rows.h"
 #include "rig/clearance.h"
 
 namespace ambrig {
@@ -39,6 +42,15 @@ std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<doub
     c.match = MatchOf(c.column);
     out.push_back(std::move(c));
   }
+  return out;
+}
+
+std::vector<double> ColumnOfRun(const GateColumn& c, const Record& data, const Record& run) {
+  const Channel* p = run.Find(c.name);
+  if (!p || p->samples.empty()) return {};
+  std::vector<double> out(c.column.size());
+  for (std::size_t k = 0; k < out.size(); ++k)
+    out[k] = AtRow(p->samples, run.rate, data, k) / c.floor;
   return out;
 }
 
@@ -142,6 +154,11 @@ void TellHeld(const CaseRecord& r, const std::string& channel, const HeldStretch
   f.mend = LeaveOutLine(r, s.first, s.count - 1);
   f.probability = 0.99;
   out.push_back(f);
+}
+
+std::string ScenarioLine(const CaseModel& model, const std::string& scenario_file) {
+  const std::string folder = std::filesystem::path(model.data().file).parent_path().string();
+  return fmt::format("scenario = \"{}\"", NameFrom(folder, scenario_file));
 }
 
 void TellScenario(DataFault fault, std::vector<DataFault>& out) {

@@ -23,6 +23,10 @@ struct GateColumn {
 std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<double>& predicted,
                                   std::size_t record);
 
+/// What a run shows of a column of `data`, over its floor; empty where the run lacks the channel. A
+/// run at another rate is read between its rows.
+std::vector<double> ColumnOfRun(const GateColumn& c, const Record& data, const Record& run);
+
 /// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by
 /// no more are not told apart.
 double MostZero(const CaseModel& model, const std::string& channel);
@@ -71,6 +75,9 @@ std::string UnitLine(const CaseRecord& r, const std::string& channel, double fac
 /// A column that is `factor` times what it should be, a wrong sign where that is negative, with the
 /// line that mends it.
 DataFault FactorFault(const CaseRecord& r, const std::string& channel, double factor, double left);
+
+/// Line of a case file that names the scenario of this file for a record.
+std::string ScenarioLine(const CaseModel& model, const std::string& scenario_file);
 
 /// Tells a fault "scenario", in place of those without a scenario that fits which were told of the
 /// record before.

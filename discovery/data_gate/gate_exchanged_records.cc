@@ -2,14 +2,10 @@
 // other one. What the two lead to differs little where both command the same steps.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
-#include "core/record/channels.h"
-#include "discovery/case/case_file.h"
 #include "discovery/data_gate/gate_checks.h"
-#include "discovery/model/record_rows.h"
 #include "discovery/model/record_traits.h"
 
 namespace ambrig {
@@ -26,15 +22,12 @@ bool MayBeExchanged(const CaseRecord& r) {
 }
 
 /// Mean square error of the columns over the floor against `run`; infinity where it lacks one of
-/// them. A run at another rate is read between its rows.
+/// them.
 double MeanSquare(const std::vector<GateColumn>& columns, const Record& data, const Record& run) {
   double sum = 0;
   for (const GateColumn& c : columns) {
-    const Channel* p = run.Find(c.name);
-    if (!p || p->samples.empty()) return kInfinity;
-    std::vector<double> predicted(c.column.size());
-    for (std::size_t k = 0; k < predicted.size(); ++k)
-      predicted[k] = AtRow(p->samples, run.rate, data, k) / c.floor;
+    const std::vector<double> predicted = ColumnOfRun(c, data, run);
+    if (predicted.empty()) return kInfinity;
     sum += std::pow(ErrorAgainst(c.column.measured, predicted, c.column.ok), 2);
   }
   return sum / static_cast<double>(columns.size());
@@ -99,12 +92,10 @@ double LeftByOtherScenario(const CaseModel& model, const Hypothesis& h, double o
 
 void TellExchanged(const CaseModel& model, std::size_t record, std::size_t other, double left,
                    std::vector<DataFault>& out) {
-  const CaseRecord& o = model.data().records[other];
   DataFault f =
       FaultLeaving(model.data().records[record], "", "scenario", std::sqrt(std::max(0.0, left)));
-  f.with = o.scenario_file;
-  const std::string folder = std::filesystem::path(model.data().file).parent_path().string();
-  f.mend = "scenario = \"" + NameFrom(folder, f.with) + "\"";
+  f.with = model.data().records[other].scenario_file;
+  f.mend = ScenarioLine(model, f.with);
   TellScenario(f, out);
 }
 

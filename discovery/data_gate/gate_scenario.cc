@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "core/record/channels.h"
-#include "discovery/case/case_file.h"
 #include "discovery/data_gate/gate_checks.h"
 #include "discovery/data_gate/gate_columns.h"
-#include "discovery/model/record_rows.h"
 
 namespace ambrig {
 
@@ -21,11 +18,8 @@ double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Re
                           const Record& other) {
   double sum = 0, n = 0;
   for (const GateColumn* c : moving) {
-    const Channel* p = other.Find(c->name);
-    if (!p || p->samples.empty()) return kInfinity;
-    std::vector<double> predicted(c->column.size());
-    for (std::size_t k = 0; k < predicted.size(); ++k)
-      predicted[k] = AtRow(p->samples, other.rate, data, k) / c->floor;
+    const std::vector<double> predicted = ColumnOfRun(*c, data, other);
+    if (predicted.empty()) return kInfinity;
     sum += std::pow(
         ErrorAgainst(c->column.measured, predicted, c->column.ok) / c->match.measured_move, 2);
     n += 1;
@@ -94,8 +88,7 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   }();
   if (f.with.empty() && !strange) return;
   if (f.with.empty()) f.probability = 0.9;
-  const std::string folder = std::filesystem::path(model.data().file).parent_path().string();
-  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", NameFrom(folder, f.with));
+  f.mend = f.with.empty() ? "" : ScenarioLine(model, f.with);
   TellScenario(f, out);
   for (GateColumn& c : columns) c.explained = true;
 }

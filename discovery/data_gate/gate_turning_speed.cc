@@ -118,10 +118,10 @@ std::optional<double> StrongestSpeed(const CaseModel& model, const ReadingError&
   const std::vector<double> lines =
       StrongestLines(model, e.InRowsOf(model), e.targets(), {kLowestLine * stated / (2 * kPi), 1});
   if (lines.empty()) return std::nullopt;
-  double best = 2 * kPi * lines[0];
+  double best = 2 * kPi * lines[0], least = e.LeftBy(best);
   for (double step = kPi / (2 * e.duration()); step > 1e-3 * kPi / e.duration(); step /= 2)
     for (const double w : {best - step, best + step})
-      if (e.LeftBy(w) < e.LeftBy(best)) best = w;
+      if (const double left = e.LeftBy(w); left < least) least = left, best = w;
   return best;
 }
 

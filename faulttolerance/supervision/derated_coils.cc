@@ -9,15 +9,15 @@
 #include "faulttolerance/supervision/fault_supervisor.h"
 #include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/watched_bearing.h"
+#include "rig/bearing_kinds/one_way.h"
 #include "rig/clearance.h"
 #include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
 
 namespace {
-constexpr double kFewestTurns = 0.35;       // left of a coil: with fewer its current loop swings
-constexpr double kLittleFalse = 0.5;        // |c| of a coil whose reading is false
-constexpr const char* kOneWay = "one way";  // rig/bearing_kinds/thrust.cc
+constexpr double kFewestTurns = 0.35;  // left of a coil: with fewer its current loop swings
+constexpr double kLittleFalse = 0.5;   // |c| of a coil whose reading is false
 }  // namespace
 
 std::string FaultSupervisor::ClassOfMap(Watched& w, const CoilVector& turns_left,

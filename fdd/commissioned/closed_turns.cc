@@ -1,4 +1,4 @@
-/// What CommissionedDetector makes of shorted turns that close through a resistance.
+// What CommissionedDetector makes of shorted turns that close through a resistance.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -37,16 +37,23 @@ void CommissionedDetector::TellCarried(CoilVerdict* out) {
   Diagnosis& d = out->diagnosis;
   if (d.cls != FaultClass::kPartialShort || d.ripple_fraction < kLeastLoop || !AllAreWhole())
     return;
-  if (!out->more.empty() && !TellSide(out)) return;
-  // Where the instant does not tell which it is, nobody else is blamed for what a loop may do.
-  const std::optional<double> lost =
-      step_.Lost(d.coil, d.onset, d.ripple_fraction, !out->beside.empty());
-  closed_[d.coil] = !lost || *lost < d.ripple_fraction ? 1 : 0;
-  d.fraction = lost.value_or(out->beside.empty() ? d.ripple_fraction : 0);
+  const bool of_both = !out->more.empty();
+  if (of_both && !MayBeLoopOfSide(out)) return;
+  const std::optional<double> lost = step_.Lost(d.coil, d.onset, d.ripple_fraction, of_both);
+  // Where the instant does not tell which it is, nobody else is blamed for what a loop may do, and
+  // one loop is likelier than two windings that fail at one instant.
+  const bool loop = !lost || *lost < d.ripple_fraction;
+  if (of_both) {
+    if (!loop) return;
+    closed_[out->more[0].coil] = 1;
+    out->beside.swap(out->more);
+  }
+  closed_[d.coil] = loop ? 1 : 0;
+  d.fraction = lost.value_or(of_both ? 0 : d.ripple_fraction);
   carried_.Begin(d.coil, d.onset, 1 - d.fraction, 1 - d.ripple_fraction);
 }
 
-bool CommissionedDetector::TellSide(CoilVerdict* out) {
+bool CommissionedDetector::MayBeLoopOfSide(CoilVerdict* out) const {
   if (out->more.size() != 1) return false;
   Diagnosis &looped = out->diagnosis, &other = out->more[0];
   if (other.cls != FaultClass::kPartialShort || other.ripple_fraction < kLeastLoop ||
@@ -54,12 +61,6 @@ bool CommissionedDetector::TellSide(CoilVerdict* out) {
     return false;
   // The winding whose turns close has lost them, beside the flux that both miss.
   if (other.ripple_fraction > looped.ripple_fraction) std::swap(looped, other);
-  const std::optional<double> lost =
-      step_.Lost(looped.coil, looped.onset, looped.ripple_fraction, true);
-  // One loop is likelier than two windings that fail at one instant, where that does not tell.
-  if (lost && !(*lost < looped.ripple_fraction)) return false;
-  closed_[other.coil] = 1;
-  out->beside.swap(out->more);
   return true;
 }
 

@@ -99,7 +99,8 @@ void CoilCurrents::CountWithout(const MeasuredPeriod& in, const FluxPeriod& flux
       likelihood_[j] = 0;
     }
     without_[j] = dead ? without_[j] + 1 : 0;
-    likelihood_[j] += left_to_partner ? kSurelyNoCurrent : LikelihoodOfNoCurrent(excess, j);
+    if (dead)
+      likelihood_[j] += left_to_partner ? kSurelyNoCurrent : LikelihoodOfNoCurrent(excess, j);
   }
 }
 

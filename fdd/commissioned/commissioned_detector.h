@@ -73,9 +73,10 @@ class CommissionedDetector : public CoilDetector {
   void FollowCarried(const MeasuredPeriod& in, bool comparable);
   /// Of lost turns, how many the currents that carry the shaft miss.
   void TellCarried(CoilVerdict* out);
-  /// Whether what both windings of a thrust side have lost is one loop in one of them: it keeps the
-  /// ripple out of the flux that they share. The other one is whole then, and no fault.
-  bool TellSide(CoilVerdict* out);
+  /// Whether what both windings of a thrust side have lost may be one loop in one of them, which is
+  /// the diagnosis then: it keeps the ripple out of the flux that they share, and the other one,
+  /// the only one of `more`, would be whole.
+  bool MayBeLoopOfSide(CoilVerdict* out) const;
   /// Whether a conclusion stands beside a coil whose shorted turns close through a resistance. What
   /// such a loop carries is in no circuit here: it moves the c of its coil and of others slowly.
   bool StandsBesideLoop(const CoilVerdict& out) const;

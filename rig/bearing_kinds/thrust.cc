@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "rig/bearing_kinds/bearing_plane.h"
+#include "rig/bearing_kinds/one_way.h"
 #include "rig/parameters/bearing_kind.h"
 
 namespace ambrig {
@@ -31,7 +32,7 @@ std::string ShareSides(const BearingParameters&, const CoilVector& turns_left, C
   }
   // A current of the other sign would pull the same way: bridges of four quadrants could drive it.
   if (one_way) map.unipolar = true;
-  return turns(0) + turns(1) == 0 ? "none" : one_way ? "one way" : "exact";
+  return turns(0) + turns(1) == 0 ? "none" : one_way ? kOneWay : "exact";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -49,6 +50,14 @@ inline Case MeasuredUnder(Case c, std::size_t record, const std::function<void(S
   c = MeasuredBy(truth, std::move(c));
   c.records[record].scenario = written;
   return c;
+}
+
+/// Takes the channels of these names out of a record.
+inline void DropChannels(CaseRecord& r, const std::function<bool(const std::string&)>& drop) {
+  std::set<std::string> kept;
+  for (const Channel& ch : r.data.channels)
+    if (!drop(ch.name)) kept.insert(ch.name);
+  KeepChannels(r, kept);
 }
 
 /// A force that the model lacks [N/m].

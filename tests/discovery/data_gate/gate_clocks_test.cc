@@ -140,11 +140,8 @@ TEST(GateClocks, AShortBlockThatIsMissing) {
 Case BesideAnotherMovement(double share) {
   Case c = Measured({}, 0, kMultisine);
   CaseRecord& r = c.records[RecordNamed(c, kMultisine)];
-  for (std::size_t k = r.data.channels.size(); k-- > 0;) {
-    if (!IsOfKind(r.data.channels[k].name, ChannelKind::kSetPoint)) continue;
-    r.data.channels.erase(r.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
-    r.quality.erase(r.quality.begin() + static_cast<std::ptrdiff_t>(k));
-  }
+  testing::DropChannels(
+      r, [](const std::string& name) { return IsOfKind(name, ChannelKind::kSetPoint); });
   for (Channel& ch : r.data.channels) {
     if (!IsOfKind(ch.name, ChannelKind::kReading) && !IsOfKind(ch.name, ChannelKind::kCoilCurrent))
       continue;

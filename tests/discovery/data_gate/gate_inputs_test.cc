@@ -56,12 +56,9 @@ TEST(GateInputs, ACommandOfAnotherSize) {
   const char* kSines = "multisine at 60 Hz";
   Case c = Measured({}, 0, kSines);
   CaseRecord& r = c.records[RecordNamed(c, kSines)];
-  for (std::size_t k = r.data.channels.size(); k-- > 0;) {
-    if (!r.data.channels[k].name.starts_with("A.s") && !r.data.channels[k].name.starts_with("B.s"))
-      continue;
-    r.data.channels.erase(r.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
-    r.quality.erase(r.quality.begin() + static_cast<std::ptrdiff_t>(k));
-  }
+  testing::DropChannels(r, [](const std::string& name) {
+    return name.starts_with("A.s") || name.starts_with("B.s");
+  });
   const std::string target = r.scenario.excitations.back().target;
   c = testing::MeasuredUnder(c, RecordNamed(c, kSines), [](Scenario& scenario) {
     scenario.excitations.back().amplitude *= 0.5;

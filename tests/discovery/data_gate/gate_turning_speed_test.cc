@@ -2,8 +2,6 @@
 // its synchronous line; lines that do not turn with the speed are left to the effects.
 #include <gmock/gmock.h>
 
-#include <utility>
-
 #include "tests/discovery/data_gate/gate_case.h"
 
 namespace ambrig {
@@ -33,16 +31,12 @@ Case TurnedAt(double turned, const EffectInstance& effect,
       chosen.push_back(r);
   Case c = EmptyCase(file, chosen);
   for (CaseRecord& r : c.records)
-    for (std::size_t k = r.data.channels.size(); k-- > 0;) {
-      const std::string& name = r.data.channels[k].name;
-      if (name != "omega" && name != "theta") continue;
-      r.data.channels.erase(r.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
-      r.quality.erase(r.quality.begin() + static_cast<std::ptrdiff_t>(k));
-    }
+    testing::DropChannels(
+        r, [](const std::string& name) { return name == "omega" || name == "theta"; });
   RigParameters truth = RadialRig();
   truth.effects = {effect};
   return testing::MeasuredUnder(
-      std::move(c), RecordNamed(c, kSlowSines),
+      c, RecordNamed(c, kSlowSines),
       [&](Scenario& s) {
         s.speed = SpeedProfile({{0.0, turned}, {s.duration, turned}});
       },
