@@ -76,7 +76,7 @@ FluxFilter::FluxFilter(const LinkageModel& nominal, const SamplingSettings& samp
 void FluxFilter::Begin(const MeasuredPeriod& in, FluxPeriod* out) {
   started_ = true;
   // At rest: run the first sample alone, without relaxations, twice for the tangent.
-  state_ = State{};
+  state_[now_] = State{};
   MeasuredPeriod still = in;
   still.x1 = in.x0;
   still.y1 = in.y0;
@@ -89,10 +89,11 @@ void FluxFilter::Begin(const MeasuredPeriod& in, FluxPeriod* out) {
   still.adc = first.data();
   Period(still, out);
   step_ = kept;
-  state_.psi = out->flux;
+  State& rest = state_[now_];
+  rest.psi = out->flux;
   for (int m = 0; m < relaxing_; ++m)
     for (int j = 0; j < kLanes; ++j)
-      state_.held[m][j] = step_.gain[m] / (step_.decay[m] - 1) * out->flux[j];
+      rest.held[m][j] = step_.gain[m] / (step_.decay[m] - 1) * out->flux[j];
 }
 
 void FluxFilter::SetBridge(const MeasuredPeriod& in, Lane* edge, FluxPeriod* out) const {
@@ -126,10 +127,11 @@ void FluxFilter::Period(const MeasuredPeriod& in, FluxPeriod* out) {
   }
   Lane edge;
   SetBridge(in, &edge, out);
+  now_ = 1 - now_;
   RunFluxLoop(model_.coupling,
               {&sense_, &turns_, &edge, circuit_.knee7, circuit_.knee15, sampling_.step,
                sampling_.samples, relaxing_, &step_, in.adc},
-              &state_, out);
+              state_[1 - now_], &state_[now_], out);
 }
 
 }  // namespace ambrig

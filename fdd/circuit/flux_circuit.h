@@ -56,7 +56,8 @@ struct FluxPeriod {
   Lane largest;        // sample of the period [A]
   // smallest sample of the on phase; of the whole period where all are above kSurelyConducts [A]
   Lane least_on;
-  Lane own;  // d psi/d i within one sample [-]
+  Lane own;               // d psi/d i within one sample [-]
+  bool conducts = false;  // every sample of every coil is above kSurelyConducts
 };
 
 class FluxFilter {
@@ -84,10 +85,12 @@ class FluxFilter {
     Lane psi;
     Lane held[kRelaxations];
   };
-  const State& state() const { return state_; }
+  const State& state() const { return state_[now_]; }
+  /// The state before the last period.
+  const State& before() const { return state_[1 - now_]; }
   /// Goes on from a state of this filter or of another one of the same circuit.
   void Resume(const State& state) {
-    state_ = state;
+    state_[now_] = state;
     started_ = true;
   }
   /// Constants of a period in lanes.
@@ -110,7 +113,8 @@ class FluxFilter {
   bool round_;                                     // no run-out
   Lane turns_, sense_, inductance_, per_nominal_;  // per_nominal_: 1/R(g0) [H]
   Step step_;
-  State state_;
+  State state_[2];    // after the last period, before it
+  int now_ = 0;       // which of them
   int relaxing_ = 0;  // poles that have a residue
   bool started_ = false;
 };

@@ -139,17 +139,17 @@ struct CircuitState {
 /// all samples but those of the on phase and the one after it, and how many count is known
 /// from the edge.
 template <class V, Coupling kCoupling, int kRelaxing, bool kKnee, bool kConducting>
-[[gnu::always_inline]] inline void Run(const FluxLoopInput& in, FluxFilter::State* state,
-                                       FluxPeriod* out) {
+[[gnu::always_inline]] inline void Run(const FluxLoopInput& in, const FluxFilter::State& before,
+                                       FluxFilter::State* state, FluxPeriod* out) {
   const V sense = LoadAs<V>(in.sense->v), far = 1e30, one = 1.0, zero = 0.0;
   // Samples k with k h <= edge are on.
   const V last_on = LoadAs<V>(in.edge->v) * (1 / in.step) + 1e-9;
-  CircuitState<V, kCoupling, kRelaxing, kKnee> circuit(in, sense, *state);
+  CircuitState<V, kCoupling, kRelaxing, kKnee> circuit(in, sense, before);
   Store(out->own.v, circuit.Share());
   const int skipped = in.samples < kSkippedAtStart ? in.samples : kSkippedAtStart;
   V highest = zero, lowest = zero, least_on = far, place = zero;
   PhaseSums<V> on_sums, off_sums;
-  Places<V> off_places;
+  PlaceSums<V> off_counts;
   auto on_before = Below(-one, last_on);
   const auto take = [&](int k, bool counts) __attribute__((always_inline)) {
     const V current = LoadAs<V>(in.adc[k].v), now = circuit.Next(current);
@@ -161,7 +161,7 @@ template <class V, Coupling kCoupling, int kRelaxing, bool kKnee, bool kConducti
       auto off = ~on_before;
       if constexpr (!kConducting) {
         off = off & Below(kSurelyConducts, current);  // else the diodes may block
-        off_places.Add(off);
+        off_counts.Add(off);
       }
       on_sums.Add(on, now, current);
       off_sums.Add(off, now, current);
@@ -177,50 +177,64 @@ template <class V, Coupling kCoupling, int kRelaxing, bool kKnee, bool kConducti
   if constexpr (!kConducting) Store(out->least_on.v, least_on);
   const V end = static_cast<double>(in.samples), skip = static_cast<double>(skipped),
           on_end = SamplesBefore(last_on, end);
+  Places<V> off_places;
   if constexpr (kConducting)
     off_places = Places<V>::Between(Min(Max(on_end + one, skip), end), end);
   else
-    off_places.FromStart(end);
+    off_places = off_counts.Until(end);
   Finish<V>(on_sums, Places<V>::Between(skip, Max(on_end, skip)), sense, in.samples, in.step,
             &out->phase[0]);
   Finish<V>(off_sums, off_places, sense, in.samples, in.step, &out->phase[1]);
 }
 
 template <class V, Coupling kCoupling, int kRelaxing, bool kKnee>
-[[gnu::always_inline]] inline void RunOver(const FluxLoopInput& in, FluxFilter::State* state,
-                                           FluxPeriod* out) {
+[[gnu::always_inline]] inline void RunOver(const FluxLoopInput& in, const FluxFilter::State& before,
+                                           FluxFilter::State* state, FluxPeriod* out) {
   const V far = 1e30;
-  V most = -far, least = far;
-  for (int k = 0; k < in.samples; ++k) {
-    const V current = LoadAs<V>(in.adc[k].v);
-    most = Max(current, most);
-    least = Min(current, least);
+  // Two of each, which wait for each other half as long.
+  V most = -far, least = far, most_of_others = most, least_of_others = least;
+  int k = 0;
+  for (; k + 1 < in.samples; k += 2) {
+    const V one = LoadAs<V>(in.adc[k].v), other = LoadAs<V>(in.adc[k + 1].v);
+    most = Max(one, most);
+    least = Min(one, least);
+    most_of_others = Max(other, most_of_others);
+    least_of_others = Min(other, least_of_others);
   }
+  if (k < in.samples) {
+    const V last = LoadAs<V>(in.adc[k].v);
+    most = Max(last, most);
+    least = Min(last, least);
+  }
+  most = Max(most_of_others, most);
+  least = Min(least_of_others, least);
   Store(out->largest.v, most);
   Store(out->least_on.v, least);
   const V is_coil = Abs(LoadAs<V>(in.sense->v));
-  if (Largest((kSurelyConducts - least) * is_coil - (1.0 - is_coil)) < 0)
-    Run<V, kCoupling, kRelaxing, kKnee, true>(in, state, out);
+  out->conducts = Largest((kSurelyConducts - least) * is_coil - (1.0 - is_coil)) < 0;
+  if (out->conducts)
+    Run<V, kCoupling, kRelaxing, kKnee, true>(in, before, state, out);
   else
-    Run<V, kCoupling, kRelaxing, kKnee, false>(in, state, out);
+    Run<V, kCoupling, kRelaxing, kKnee, false>(in, before, state, out);
 }
 
 template <class V, Coupling kCoupling>
-[[gnu::always_inline]] inline void Pick(const FluxLoopInput& in, FluxFilter::State* state,
-                                        FluxPeriod* out) {
+[[gnu::always_inline]] inline void Pick(const FluxLoopInput& in, const FluxFilter::State& before,
+                                        FluxFilter::State* state, FluxPeriod* out) {
   if (in.knee7 != 0 || in.knee15 != 0)
-    RunOver<V, kCoupling, kRelaxations, true>(in, state, out);
+    RunOver<V, kCoupling, kRelaxations, true>(in, before, state, out);
   else if (in.relaxing > 2)
-    RunOver<V, kCoupling, kRelaxations, false>(in, state, out);
+    RunOver<V, kCoupling, kRelaxations, false>(in, before, state, out);
   else if (in.relaxing > 0)
-    RunOver<V, kCoupling, 2, false>(in, state, out);
+    RunOver<V, kCoupling, 2, false>(in, before, state, out);
   else
-    RunOver<V, kCoupling, 0, false>(in, state, out);
+    RunOver<V, kCoupling, 0, false>(in, before, state, out);
 }
 
-#define AMBRIG_FLUX_LOOP(name, attribute, vector, coupling)                                 \
-  attribute void name(const FluxLoopInput& in, FluxFilter::State* state, FluxPeriod* out) { \
-    Pick<vector, Coupling::coupling>(in, state, out);                                       \
+#define AMBRIG_FLUX_LOOP(name, attribute, vector, coupling)                     \
+  attribute void name(const FluxLoopInput& in, const FluxFilter::State& before, \
+                      FluxFilter::State* state, FluxPeriod* out) {              \
+    Pick<vector, Coupling::coupling>(in, before, state, out);                   \
   }
 AMBRIG_FLUX_LOOP(FluxRadialWhole, AMBRIG_WHOLE, WholeLaneVector, kFloatingRotor)
 AMBRIG_FLUX_LOOP(FluxRadialHalves, AMBRIG_WIDE, LaneVector, kFloatingRotor)
@@ -231,13 +245,13 @@ AMBRIG_FLUX_LOOP(FluxSeparateHalves, AMBRIG_WIDE, LaneVector, kNone)
 
 }  // namespace
 
-void RunFluxLoop(Coupling coupling, const FluxLoopInput& in, FluxFilter::State* state,
-                 FluxPeriod* out) {
+void RunFluxLoop(Coupling coupling, const FluxLoopInput& in, const FluxFilter::State& before,
+                 FluxFilter::State* state, FluxPeriod* out) {
   const auto run = coupling == Coupling::kFloatingRotor
                        ? (whole_lanes ? FluxRadialWhole : FluxRadialHalves)
                    : coupling == Coupling::kSides ? (whole_lanes ? FluxSidesWhole : FluxSidesHalves)
                                                   : FluxSeparateHalves;
-  run(in, state, out);
+  run(in, before, state, out);
 }
 
 }  // namespace ambrig

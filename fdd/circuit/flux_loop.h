@@ -15,8 +15,8 @@ struct FluxLoopInput {
   const Lane* adc;  // [A]
 };
 
-/// Goes on from `state` and fills `out`, but for the voltages.
-void RunFluxLoop(Coupling coupling, const FluxLoopInput& in, FluxFilter::State* state,
-                 FluxPeriod* out);
+/// Goes on from `before` to `state`, and fills `out`, but for the voltages.
+void RunFluxLoop(Coupling coupling, const FluxLoopInput& in, const FluxFilter::State& before,
+                 FluxFilter::State* state, FluxPeriod* out);
 
 }  // namespace ambrig

@@ -1,8 +1,8 @@
 #pragma once
 /// Least-squares slopes over the samples of one phase of a period, all coils in lanes. Only for
 /// sources that hold a hot loop.
-#include "actuators/magnetics/whole_lane_vector.h"
 #include "fdd/circuit/flux_circuit.h"
+#include "fdd/measurement/sample_places.h"
 
 namespace ambrig {
 
@@ -22,34 +22,35 @@ struct PhaseSums {
   }
 };
 
-/// How many samples of a phase count, and the sum of their numbers k.
+/// How many samples of a phase count, and the mean of their numbers k.
 template <class V>
 struct Places {
-  V count = 0.0, sum = 0.0;
+  V count = 0.0, middle = 0.0;
   /// The samples from `first` to the one before `end`.
   [[gnu::always_inline]] static Places Between(const V& first, const V& end) {
     Places out;
     out.count = end - first;
-    out.sum = (first + end - 1.0) * out.count * 0.5;
+    out.middle = (first + end - 1.0) * 0.5;
     return out;
   }
-  /// One sample after the other; then `sum` is from the end until FromStart(end).
+};
+
+/// The same of samples that are added one after the other.
+template <class V>
+struct PlaceSums {
+  V count = 0.0, from_end = 0.0;
   template <class Mask>
   [[gnu::always_inline]] void Add(const Mask& in) {
     count += Only(in, 1.0);
-    sum += count;
+    from_end += count;
   }
-  [[gnu::always_inline]] void FromStart(const V& end) { sum = count * end - sum; }
+  [[gnu::always_inline]] Places<V> Until(const V& end) const {
+    Places<V> out;
+    out.count = count;
+    out.middle = (count * end - from_end) / Max(count, 1.0);
+    return out;
+  }
 };
-
-/// How many of the samples 0, 1, ... before `end` come before `x`: x rounded
-/// up, within 0 and `end`.
-template <class V>
-[[gnu::always_inline]] inline V SamplesBefore(const V& x, const V& end) {
-  constexpr double kRounds = 6755399441055744.0;  // 1.5 * 2^52: what is added to it has no fraction
-  const V within = Min(Max(x, 0.0), end), nearest = (within + kRounds) - kRounds;
-  return nearest + Only(Below(nearest, within), 1.0);
-}
 
 /// `end`: number of samples of the period, sample k is in its sums `end` - k times.
 template <class V>
@@ -58,10 +59,10 @@ template <class V>
   const V ky = s.y * end - s.y_after, ki = s.i * end - s.i_after;
   const auto enough = Below(kFewestForSlope - 0.5, places.count);
   const V n = Choose(enough, places.count, 2), spread = n * (n * n - 1) * (step / 12),
-          per = Only(enough, 1 / spread), mean = s.i / n, middle = places.sum / n;
+          per = Only(enough, 1 / spread), mean = s.i / n;
   Store(out->samples.v, Only(enough, places.count));
-  Store(out->flux.v, sense * (ky - middle * s.y) * per);
-  Store(out->current.v, (ki - middle * s.i) * per);
+  Store(out->flux.v, sense * (ky - places.middle * s.y) * per);
+  Store(out->current.v, (ki - places.middle * s.i) * per);
   Store(out->mean.v, Only(enough, mean));
   Store(out->scale.v, per * (1 / step));
 }

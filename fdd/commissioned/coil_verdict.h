@@ -19,6 +19,13 @@ struct CoilVerdict {
   // 0: not so
   double turns = 0;
 
+  /// No coil stands out.
+  static CoilVerdict Calm(bool doubtful) {
+    CoilVerdict out;
+    out.doubtful = doubtful;
+    return out;
+  }
+
   /// Blames all of them, one at least, the first by name.
   void Blame(const std::vector<Diagnosis>& failed) {
     diagnosis = failed[0];

@@ -115,10 +115,9 @@ Diagnosis CommissionedDetector::EndProbe(double t) {
 CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
   ratios_.Begin();
-  const FluxFilter::State before = filter_.state();
   filter_.Period(in, &period_);
   currents_.Update(in, turns_.share, bands_.most_missed());
-  const int stepped = jumps_.Period(in, ratios_.now());
+  const int stepped = jumps_.Period(in, ratios_.now(), period_.conducts);
   const double nearest = kClosestGap * gap_;
   const double reach = gap_ - nearest;
   const bool comparable = in.comparable && in.x1 * in.x1 + in.y1 * in.y1 < reach * reach;
@@ -147,7 +146,7 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
   if (ratios_.calm())
     decision_.ForgetPeriods();
   else
-    decision_.Keep(in, sampling_.samples, before);
+    decision_.Keep(in, sampling_.samples, filter_.before());
   if (paused_ > 0) {
     --paused_;
     decision_.ForgetStreaks();
@@ -155,6 +154,10 @@ CoilVerdict CommissionedDetector::Watch(const MeasuredPeriod& in) {
     currents_.CountWithout(in, period_, excess_, ratios_.now(), turns_.share);
     return decision_.WithoutCurrent(Evidence(in));
   }
+  return Conclude(in, stepped);
+}
+
+CoilVerdict CommissionedDetector::Conclude(const MeasuredPeriod& in, int stepped) {
   CoilVerdict out = Judge(Evidence(in));
   if (out.decided && !StandsBesideLoop(out)) {
     out.decided = false;
@@ -182,7 +185,7 @@ void CommissionedDetector::TellStep(const MeasuredPeriod& in, int coil, CoilVerd
 }
 
 std::optional<CoilVerdict> CommissionedDetector::Swings(const MeasuredPeriod& in) {
-  const int coil = swing_.Period(in, turns_.share);
+  const int coil = swing_.Period(in, jumps_.largest(), period_.largest, turns_.share);
   if (!swing_.unsettled()) return {};
   CoilVerdict out;
   out.doubtful = true;
@@ -235,9 +238,7 @@ CoilVerdict CommissionedDetector::Judge(const CoilEvidence& seen) {
     if (CoilVerdict failed = decision_.WithoutCurrent(seen); failed.decided) return failed;
   if (!calm) return decision_.Judge(seen);
   decision_.ForgetStreaks();
-  CoilVerdict out;
-  out.doubtful = seen.Doubtful();
-  return out;
+  return CoilVerdict::Calm(seen.Doubtful());
 }
 
 CoilEvidence CommissionedDetector::Evidence(const MeasuredPeriod& in) const {

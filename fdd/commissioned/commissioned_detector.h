@@ -81,6 +81,9 @@ class CommissionedDetector : public CoilDetector {
   /// such a loop carries is in no circuit here: it moves the c of its coil and of others slowly.
   bool StandsBesideLoop(const CoilVerdict& out) const;
   bool BesideLoop() const;
+  /// Of a period whose c are known; `stepped`: coil whose reading made a step that no circuit can
+  /// make, -1: none.
+  CoilVerdict Conclude(const MeasuredPeriod& in, int stepped);
   CoilVerdict Judge(const CoilEvidence& seen);
   CoilEvidence Evidence(const MeasuredPeriod& in) const;
   double share(int coil) const { return turns_.share[coil]; }

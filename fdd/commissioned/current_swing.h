@@ -16,9 +16,10 @@ class CurrentSwing {
   /// `noise`: of a sample, quantisation included [A rms].
   CurrentSwing(const LinkageModel& nominal, const SamplingSettings& sampling, double noise);
 
-  /// One period; `share`: turns that every coil is believed to have, 0: not watched [-]. The coil
+  /// One period; `step`: the largest steps of its samples, up or down, `reading`: the largest of
+  /// them [A], `share`: turns that every coil is believed to have, 0: not watched [-]. The coil
   /// that has swung in six of the last sixteen periods, the one of the largest steps; -1: none.
-  int Period(const MeasuredPeriod& in, const Lane& share);
+  int Period(const MeasuredPeriod& in, const Lane& step, const Lane& reading, const Lane& share);
   /// Whether some current has swung in four of the last six periods: nothing is to be concluded
   /// of the others.
   bool unsettled() const { return unsettled_; }
@@ -27,16 +28,24 @@ class CurrentSwing {
   double Lost(int coil) const;
   void Forget();
 
+  struct Steps {
+    Lane limit, over;  // V h/L_leak [A]; how many times that is a swing
+    Lane usual, calm;  // mean of the largest steps while calm [A], periods of it
+  };
+
  private:
+  /// What the coils' swings so far say, after one more period.
+  int Count();
+
   LinkageModel nominal_;
   SamplingSettings sampling_;
-  double noise_;                                   // of a step [A]
-  Lane last_;                                      // sample [A]
-  Lane reading_, largest_;                         // of the period: reading, step [A]
-  unsigned recent_[kLanes] = {};                   // a bit per period, the last one lowest
-  double over_[kLanes] = {};                       // largest step over the limit, in those periods
-  double usual_[kLanes] = {}, calm_[kLanes] = {};  // mean step while calm [A], periods of it
-  bool started_ = false, unsettled_ = false;
+  double noise_;  // of a step [A]
+  Lane step_;     // largest of the period [A]
+  Steps steps_;
+  unsigned recent_[kLanes] = {};  // a bit per period, the last one lowest
+  double over_[kLanes] = {};      // largest step over the limit, in those periods
+  bool unsettled_ = false;
+  bool calm_ = true;  // no coil has swung in those periods
 };
 
 }  // namespace ambrig

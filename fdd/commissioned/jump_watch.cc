@@ -21,8 +21,8 @@ bool JumpWatch::Confirmed(const MeasuredPeriod& in) const {
   return (mean / samples_ - (*in.set_point)[coil_]) / step_ > kMissed;
 }
 
-int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now) {
-  jumps_ = jump_.Period(in);
+int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now, bool conducts) {
+  jumps_ = jump_.Period(in, conducts);
   double most = 0;
   int largest = -1;
   for (int j = 0; j < coils_; ++j)

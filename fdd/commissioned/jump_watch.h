@@ -13,10 +13,13 @@ class JumpWatch {
  public:
   JumpWatch(const LinkageModel& nominal, const SamplingSettings& sampling, double noise);
 
-  /// One period; `now`: c of every coil in it. Returns the coil whose sensor stepped, -1: none.
-  int Period(const MeasuredPeriod& in, const Lane& now);
+  /// One period; `now`: c of every coil in it, `conducts` as of ReadingJump::Period. Returns the
+  /// coil whose sensor stepped, -1: none.
+  int Period(const MeasuredPeriod& in, const Lane& now, bool conducts = false);
   /// Another explanation was found.
   void Forget() { coil_ = -1; }
+  /// Largest steps of the last period, up or down [A].
+  const Lane& largest() const { return jump_.largest(); }
   double onset() const { return onset_; }
   /// By what its reading stepped in the last period that no voltage can make [A].
   double jump(int coil) const { return jumps_[coil]; }

@@ -71,11 +71,15 @@ void CarriedTurns::Keep(const MeasuredPeriod& in, const FluxPeriod& flux, const 
   const AmplifierParameters& amplifier = *sampling_.amplifier;
   const double period = sampling_.step * sampling_.samples;
   moved_ = false;
-  for (int j = 0; j < whole_.nominal().coils; ++j) {
-    const double duty = (*in.duty)[j], edge = amplifier.modulation == Modulation::kBiState
-                                                  ? duty * period
-                                                  : VoltageOf(amplifier, duty, in.bus).edge;
-    volts_[j] += flux.phase[0].voltage[j] * edge + flux.phase[1].voltage[j] * (period - edge);
+  Lane edge;
+  if (amplifier.modulation == Modulation::kBiState)
+    for (int j = 0; j < kLanes; ++j) edge[j] = (*in.duty)[j] * period;
+  else
+    for (int j = 0; j < whole_.nominal().coils; ++j)
+      edge[j] = VoltageOf(amplifier, (*in.duty)[j], in.bus).edge;
+  const Lane &on = flux.phase[0].voltage, &off = flux.phase[1].voltage;
+  for (int j = 0; j < kLanes; ++j) {
+    volts_[j] += on[j] * edge[j] + off[j] * (period - edge[j]);
     charge_[j] += mean[j] * period;
   }
   Row& row = row_[static_cast<std::size_t>(count_++ % kKept)];

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "actuators/magnetics/whole_lane_vector.h"
+#include "fdd/measurement/sample_places.h"
 
 namespace ambrig {
 
@@ -46,10 +46,32 @@ struct Steps {
     sum += Only(counts, step);
     count += Only(counts, 1.0);
   }
-  [[gnu::always_inline]] void Keep(ReadingJump::PhaseStep* out, double weight) const {
+  [[gnu::always_inline]] void Keep(ReadingJump::PhaseStep* out) const {
     Store(out->mean.v, sum / Max(count, 1.0));
-    Store(out->count.v, count * weight);
+    Store(out->count.v, count);
   }
+  /// Of one interval: known although it is alone.
+  [[gnu::always_inline]] void KeepOne(ReadingJump::PhaseStep* out) const {
+    Store(out->mean.v, sum);
+    Store(out->count.v, count * (kFewestIntervals + 1));
+  }
+};
+
+template <class V>
+[[gnu::always_inline]] inline void KeepAll(const Steps<V>* seen, ReadingJump::State* state) {
+  for (int q = 0; q <= kOff; ++q) seen[q].Keep(&state->known[q]);
+  for (int q = kOff + 1; q < kKnownSteps; ++q) seen[q].KeepOne(&state->known[q]);
+}
+
+/// One period's readings and what they are compared with.
+struct StepsInput {
+  const Lane* adc;
+  int samples;
+  const Lane *coils, *duty;  // coils: 1, 0 in lanes without one
+  double samples_of_period;  // [-], of the whole switching period
+  const Lane* per_volt;      // largest step over the bus voltage [A/V]
+  double volts, noise;       // of the bus, of a step [A]
+  bool conducts;             // surely, every sample of every coil
 };
 
 /// What the steps of a period are compared with; the state before it.
@@ -61,14 +83,13 @@ struct StepLimits {
   double noise;
   Range<V> anywhere, on, off;
 
-  [[gnu::always_inline]] StepLimits(const ReadingJump::State& state, const Lane& limit,
-                                    const Lane& edge, double noise_of_step)
+  [[gnu::always_inline]] StepLimits(const StepsInput& in, const ReadingJump::State& state)
       : known(state.known),
-        most(LoadAs<V>(limit.v)),
-        last_on(LoadAs<V>(edge.v)),
+        most(LoadAs<V>(in.per_volt->v) * in.volts + V(in.noise)),
+        last_on(LoadAs<V>(in.duty->v) * in.samples_of_period),
         fall(LoadAs<V>(state.fall.v) * kEdgeForgets),
         rise(LoadAs<V>(state.rise.v) * kEdgeForgets),
-        noise(noise_of_step) {
+        noise(in.noise) {
     anywhere = {Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise), 0.0};
     on = RangeOf(known[kOn], most, noise);
     off = RangeOf(known[kOff], most, noise);
@@ -80,30 +101,42 @@ struct StepLimits {
   }
 };
 
-/// One period's readings and what they are compared with.
-struct StepsInput {
-  const Lane* adc;
-  int samples;
-  const Lane *coils, *edge, *limit;  // coils: 1, 0 in lanes without one
-  double noise;
-};
+/// Whether every sample of every coil is above kConducts, the last one of the period before, too.
+template <class V>
+[[gnu::always_inline]] inline bool AllConduct(const StepsInput& in,
+                                              const ReadingJump::State& state) {
+  const V one = 1.0, coil = LoadAs<V>(in.coils->v);
+  V least = LoadAs<V>(state.last.v);
+  if (!in.conducts)
+    for (int k = 0; k < in.samples; ++k) least = Min(LoadAs<V>(in.adc[k].v), least);
+  return Largest((kConducts - least) * coil - (one - coil)) < 0;
+}
+
+/// The intervals from kAfterEdge on that belong to either phase.
+template <class V>
+[[gnu::always_inline]] inline void CountIntervals(const StepsInput& in, const V& last_on,
+                                                  const V& last_at_edge, Steps<V>* seen) {
+  const V end = static_cast<double>(in.samples), first = Min(end, kAfterEdge);
+  seen[kOn].count = Max(SamplesBefore(last_on, end), first) - first;
+  seen[kOff].count = end - Max(SamplesUpTo(last_at_edge, end), first);
+}
 
 /// The period as nearly all are: every coil conducts throughout, and no step is impossible.
 /// Returns false where that is not so; nothing is kept then.
 template <class V>
 [[gnu::always_inline]] inline bool KeepExpected(const StepsInput& in, ReadingJump::State* state) {
-  const StepLimits<V> limits(*state, *in.limit, *in.edge, in.noise);
-  const V zero = 0.0, one = 1.0, coil = LoadAs<V>(in.coils->v);
-  V least = LoadAs<V>(state->last.v), before = least;
-  for (int k = 0; k < in.samples; ++k) least = Min(LoadAs<V>(in.adc[k].v), least);
-  if (Largest((kConducts - least) * coil - (one - coil)) >= 0) return false;
+  if (!AllConduct<V>(in, *state)) return false;
+  const StepLimits<V> limits(in, *state);
+  const V zero = 0.0, one = 1.0;
+  V before = LoadAs<V>(state->last.v);
   V fall = limits.fall, rise = limits.rise, place = zero;
-  // The largest departures from what is expected of a phase.
-  V off_by_on = zero, off_by_off = zero, inside = one;
+  // The largest step, and the largest departures from what is expected of a phase.
+  V largest = zero, off_by_on = zero, off_by_off = zero, inside = one;
   Steps<V> seen[kKnownSteps];
   const auto next = [&](int k) __attribute__((always_inline)) {
     const V now = LoadAs<V>(in.adc[k].v), step = now - before;
     before = now;
+    largest = Max(Abs(step), largest);
     return step;
   };
   const auto depart = [&](const V& step, const Range<V>& range) __attribute__((always_inline)) {
@@ -135,17 +168,18 @@ template <class V>
     const V at_edge = Only(~(on | off), step);
     fall = Min(fall, at_edge);
     rise = Max(rise, at_edge);
-    seen[kOn].Add(on, step);
-    seen[kOff].Add(off, step);
+    seen[kOn].sum += Only(on, step);
+    seen[kOff].sum += Only(off, step);
   }
+  CountIntervals(in, limits.last_on, last_at_edge, seen);
   inside = Min(inside, Min(limits.on.Reach() - off_by_on, limits.off.Reach() - off_by_off));
   inside = Min(inside, Min(fall - limits.anywhere.low, limits.anywhere.high - rise));
   if (Largest(-inside) > 0) return false;
-  for (int q = 0; q < kKnownSteps; ++q)
-    seen[q].Keep(&state->known[q], q > kOff ? kFewestIntervals + 1 : 1);
+  KeepAll(seen, state);
   Store(state->last.v, before);
   Store(state->fall.v, fall);
   Store(state->rise.v, rise);
+  Store(state->largest.v, largest);
   return true;
 }
 
@@ -153,14 +187,15 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline void SumOfSteps(const StepsInput& in, ReadingJump::State* state,
                                               Lane* jumps) {
-  const StepLimits<V> limits(*state, *in.limit, *in.edge, in.noise);
+  const StepLimits<V> limits(in, *state);
   const V zero = 0.0, one = 1.0;
-  V before = LoadAs<V>(state->last.v), sum = zero;
+  V before = LoadAs<V>(state->last.v), sum = zero, largest = zero;
   V fall = limits.fall, rise = limits.rise;
   Steps<V> seen[kKnownSteps];
   const auto take = [&](int k, const Range<V>& rising, Steps<V>& on_steps)
       __attribute__((always_inline)) {
     const V now = LoadAs<V>(in.adc[k].v), step = now - before, place = static_cast<double>(k);
+    largest = Max(Abs(step), largest);
     const auto on_now = Below(k == 0 ? one : place, k == 0 ? zero : limits.last_on);
     // A current that ends in an off phase does not go on as it fell.
     const auto conducts = Below(kConducts, Min(before, now));
@@ -182,11 +217,11 @@ template <class V>
   if (in.samples > 1) take(1, limits.Rising(1), seen[kOff + 1]);
   if (in.samples > 2) take(2, limits.Rising(2), seen[kOff + 2]);
   for (int k = kAfterEdge; k < in.samples; ++k) take(k, limits.on, seen[kOn]);
-  for (int q = 0; q < kKnownSteps; ++q)
-    seen[q].Keep(&state->known[q], q > kOff ? kFewestIntervals + 1 : 1);
+  KeepAll(seen, state);
   Store(state->last.v, before);
   Store(state->fall.v, fall);
   Store(state->rise.v, rise);
+  Store(state->largest.v, largest);
   Store(jumps->v, Select(Abs(sum) > kLeastJump, sum, zero));
 }
 
@@ -214,18 +249,15 @@ ReadingJump::ReadingJump(const LinkageModel& nominal, const SamplingSettings& sa
                                                                : kInfinity;
 }
 
-Lane ReadingJump::Period(const MeasuredPeriod& in) {
+Lane ReadingJump::Period(const MeasuredPeriod& in, bool conducts) {
   if (!started_) state_.last = in.adc[0];
   started_ = true;
-  Lane limit, edge, jumps;
-  const double noise = kNoiseOfStep * noise_;
+  Lane jumps;
   const double per_period = 1 / (sampling_.amplifier->switching_frequency * sampling_.step);
-  for (int j = 0; j < kLanes; ++j) {
-    limit[j] = per_volt_[j] * std::abs(in.bus) + noise;
-    edge[j] = (*in.duty)[j] * per_period;
-  }
   (whole_lanes ? StepsOfWholeLanes : StepsOfHalfLanes)(
-      {in.adc, sampling_.samples, &coils_, &edge, &limit, noise}, &state_, &jumps);
+      {in.adc, sampling_.samples, &coils_, in.duty, per_period, &per_volt_, std::abs(in.bus),
+       kNoiseOfStep * noise_, conducts},
+      &state_, &jumps);
   // Other bridges have more edges than the one of the duty.
   if (sampling_.amplifier->modulation != Modulation::kBiState)
     for (PhaseStep& p : state_.known) p.count = Lane{};

@@ -20,8 +20,11 @@ class ReadingJump {
 
   /// Net sum of the impossible steps of every coil in this period, that from the last sample of the
   /// period before included, if at least 0.2 A; 0: none [A]. A single wrong sample steps there and
-  /// back: nothing.
-  Lane Period(const MeasuredPeriod& in);
+  /// back: nothing. `conducts`: every sample of every coil is known to be above kSurelyConducts.
+  Lane Period(const MeasuredPeriod& in, bool conducts = false);
+
+  /// Largest steps of the last period, up or down [A].
+  const Lane& largest() const { return state_.largest; }
 
   /// Mean step of a phase, or of one interval, in the last period; count 0: not known.
   struct PhaseStep {
@@ -31,6 +34,7 @@ class ReadingJump {
     Lane last;           // sample [A]
     PhaseStep known[4];  // on, off, intervals 1 and 2 of a period
     Lane fall, rise;     // largest steps beside edges [A]
+    Lane largest;        // step of the last period [A]
   };
 
  private:

@@ -37,17 +37,16 @@ class Readings {
     return {MakeLinkageModel(testing_bench::Reference()), sampling_, 0.004};
   }
   int Period(CurrentSwing& swing, bool steps) {
-    std::array<Lane, 18> adc;
-    for (std::size_t k = 0; k < adc.size(); ++k)
-      for (int j = 0; j < kLanes; ++j) adc[k][j] = 1;
-    if (steps)
-      for (std::size_t k = 9; k < adc.size(); ++k) adc[k][2] += step_;
-    Lane duty;
+    Lane step, reading, duty;
+    for (double& v : reading.v) v = 1;
+    if (steps) {
+      step[2] = step_;
+      reading[2] += step_;
+    }
     MeasuredPeriod in;
-    in.adc = adc.data();
     in.duty = &duty;
     in.bus = bridge_.bus_voltage;
-    return swing.Period(in, share_);
+    return swing.Period(in, step, reading, share_);
   }
 
  private:
