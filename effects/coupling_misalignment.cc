@@ -25,10 +25,11 @@ EffectDescription CouplingMisalignment() {
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const PlaneMap map = TargetForcePlane(e, plant);
     const double c = e.Value("c"), s = e.Value("s");
-    AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
-      const Turned f = Turn(c, s, 2 * m.theta);
-      map.AddForce(f.x, f.y, forces.Q);
-    });
+    AddForceTerm(plant,
+                 [=, turning = Turning()](const MotionState& m, RotorForces& forces) mutable {
+                   const Turned f = turning.At(c, s, 2 * m.theta);
+                   map.AddForce(f.x, f.y, forces.Q);
+                 });
   };
   return d;
 }

@@ -31,11 +31,6 @@ std::size_t TargetAuxiliary(const EffectInstance& effect, const Plant& plant) {
                    " needs an auxiliary bearing there (bearings." + effect.target + ".auxiliary)");
 }
 
-Turned Turn(double c, double s, double angle) {
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  return {c * cosine - s * sine, c * sine + s * cosine};
-}
-
 void InsertMap(PositionSensor& sensor, std::unique_ptr<StagedMap> map) {
   auto at = sensor.maps.begin();
   for (; at != sensor.maps.end(); ++at) {

@@ -1,6 +1,7 @@
 #pragma once
 /// What a plane ("A", "z") or axis ("A.x", "z") target means, and the order of the maps on a
 /// sensor.
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,12 +20,27 @@ int TargetSide(const EffectInstance& effect);
 /// The auxiliary bearing at the target plane. @throws InputError when the rig has none there.
 std::size_t TargetAuxiliary(const EffectInstance& effect, const Plant& plant);
 
-/// A point fixed to the rotor at (c, s) for theta = 0, seen by the stator at the angle `order`
-/// theta.
 struct Turned {
   double x, y;
 };
-Turned Turn(double c, double s, double angle);
+
+/// Turns points that are fixed to the rotor. Cosine and sine of the last angle are kept: the stages
+/// of a step and the planes of a shaft share theirs.
+class Turning {
+ public:
+  /// The point at (c, s) for theta = 0, seen by the stator at `angle` = order times theta [rad].
+  Turned At(double c, double s, double angle) {
+    if (angle != angle_) {
+      angle_ = angle;
+      cosine_ = std::cos(angle);
+      sine_ = std::sin(angle);
+    }
+    return {c * cosine_ - s * sine_, c * sine_ + s * cosine_};
+  }
+
+ private:
+  double angle_ = 0, cosine_ = 1, sine_ = 0;
+};
 
 /// Readings pass the maps in this order, whatever the order in the rig file:
 ///   surface -> sensor axes -> gain -> offset -> electronics -> what cables pick up -> formulas
@@ -59,7 +75,7 @@ void AddForceTerm(Plant& plant, F f) {
   struct Wrapped final : ForceTerm {
     explicit Wrapped(F function) : f(std::move(function)) {}
     void Add(const MotionState& state, RotorForces& forces) const override { f(state, forces); }
-    F f;
+    mutable F f;  // may keep what it computed last: a plant is of one run
   };
   plant.rotor.terms.push_back(std::make_unique<Wrapped>(std::move(f)));
 }

@@ -17,13 +17,14 @@ class Bow : public SurfaceTerm {
  public:
   Bow(double c, double s) : c_(c), s_(s) {}
   void Add(const MotionState& state, double z, double* dx, double* dy) const override {
-    const Turned b = Turn(c_ * z, s_ * z, state.theta);
+    const Turned b = turning_.At(c_ * z, s_ * z, state.theta);
     *dx += b.x;
     *dy += b.y;
   }
 
  private:
   double c_, s_;  // per metre of z
+  mutable Turning turning_;
 };
 
 }  // namespace

@@ -28,11 +28,12 @@ EffectDescription Unbalance() {
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const PlaneMap map = TargetForcePlane(e, plant);
     const double c = e.Value("c"), s = e.Value("s");
-    AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
-      const Turned u = Turn(c, s, m.theta);
-      const double w2 = m.Omega * m.Omega;
-      map.AddForce(w2 * u.x + m.Omega_dot * u.y, w2 * u.y - m.Omega_dot * u.x, forces.Q);
-    });
+    AddForceTerm(
+        plant, [=, turning = Turning()](const MotionState& m, RotorForces& forces) mutable {
+          const Turned u = turning.At(c, s, m.theta);
+          const double w2 = m.Omega * m.Omega;
+          map.AddForce(w2 * u.x + m.Omega_dot * u.y, w2 * u.y - m.Omega_dot * u.x, forces.Q);
+        });
   };
   return d;
 }

@@ -75,7 +75,10 @@ struct PlaneMap {
 
 /// Sums that a force term adds to.
 struct RotorForces {
-  DofVector Q{};      // generalised forces on q
+  RotorForces() : RotorForces(DofVector{}) {}
+  explicit RotorForces(const DofVector& generalised) : Q(generalised) {}
+
+  DofVector Q;        // generalised forces on q
   double torque = 0;  // about the spin axis [N m]
   // what the stator pushes on the rotor (its reaction moves a base) [N]
   double stator_x = 0, stator_y = 0;

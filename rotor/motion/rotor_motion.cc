@@ -91,7 +91,9 @@ PlanePoint RotorModel::OnSurface(const MotionState& s, const PlaneMap& plane) co
 void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x,
                                double stator_y, DofVector& a, double* torque,
                                bool near_contact) const {
-  RotorForces f{.Q = Q, .stator_x = stator_x, .stator_y = stator_y};
+  RotorForces f(Q);
+  f.stator_x = stator_x;
+  f.stator_y = stator_y;
   for (const auto& term : terms) term->Add(s, f);
   for (const AuxiliaryPlane& aux : aux_)
     if (near_contact || aux.mount_dof >= 0 || aux.race_dof >= 0)
