@@ -21,8 +21,7 @@ struct ErrorStretch {
 /// each octave the density that a quarter of the stretches stay below counts, corrected for its
 /// scatter, where the middle half of them agrees and the error is not coherent with the prediction;
 /// elsewhere the white noise. Lines spoil one octave of few stretches. No stretches: the white
-/// noise. Source: P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967); quantiles of chi-squared
-/// numbers: E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931).
+/// noise. Source: P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967).
 FilteredNoise NoiseOfStretches(const std::vector<ErrorStretch>& stretches, double white);
 
 }  // namespace ambrig

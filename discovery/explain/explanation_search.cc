@@ -9,6 +9,7 @@
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/last_fit.h"
 #include "discovery/explain/outlier_fit.h"
+#include "discovery/model/stationary_remainder.h"
 
 namespace ambrig {
 
@@ -96,7 +97,28 @@ Explanation ExplanationSearch::Search(const Hypothesis& nominal, const FitResult
         "the loop of the model found passes more noise than the rig file's: the noise floor is "
         "the found model's");
   const std::vector<NuisanceFound> amounts = AmountsAtTheEnd(now);
+  if (adopted_.empty() && IsNoise(base)) {
+    const FitResult filed = models_.At(as_filed.hypothesis);
+    base = now = models_.At(base.hypothesis);
+    report_.NoteNominal(UnseenRatio(models_.thinned(), filed.residual));
+    report_.NoteBase(base.ratio_fit, base.ratio_validate);
+    return report_.Final(filed, base, now, amounts, nuisances_.of_coils().of_units);
+  }
   return report_.Final(as_filed, base, now, amounts, nuisances_.of_coils().of_units);
+}
+
+bool ExplanationSearch::IsNoise(const FitResult& base) {
+  constexpr double kNoiseLeft = 1.05;  // error over the floor
+  if (RatiosOf(models_.thinned(), base).Answered() < kNoiseLeft) return false;
+  const FitResult all = models_.AtAllRows(base);
+  if (all.predicted.empty()) return false;
+  const StationaryRemainder noise =
+      StationaryRemainderOf(models_.full(), all.predicted, all.residual);
+  if (noise.channels.empty()) return false;
+  models_.SetFloors(noise.floors);
+  const std::vector<std::string> remarks = RemainderRemarks(noise);
+  log_.warnings.insert(log_.warnings.end(), remarks.begin(), remarks.end());
+  return true;
 }
 
 FitResult ExplanationSearch::FitBase(const Hypothesis& nominal, const FitResult& as_filed) {

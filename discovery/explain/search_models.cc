@@ -114,9 +114,15 @@ bool SearchModels::RaiseFloors(const Hypothesis& h) {
 }
 
 void SearchModels::SetFloors(const Floors& before) {
-  for (std::size_t t = 0; t < before.targets.size(); ++t)
-    thinned_.targets()[t].floor = full_.targets()[t].floor = before.targets[t].floor;
+  std::vector<double> floors;
+  for (const Target& t : before.targets) floors.push_back(t.floor);
+  SetFloors(floors);
   effective_sample_size_ = before.effective_sample_size;
+}
+
+void SearchModels::SetFloors(const std::vector<double>& floors) {
+  for (std::size_t t = 0; t < floors.size(); ++t)
+    thinned_.targets()[t].floor = full_.targets()[t].floor = floors[t];
 }
 
 void SearchModels::RescaleSignatures(const Floors& before) {

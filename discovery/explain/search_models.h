@@ -79,6 +79,8 @@ class SearchModels {
   /// it loses its rotor.
   bool RaiseFloors(const Hypothesis& h);
   void SetFloors(const Floors& before);
+  /// The same of floors alone, one per target.
+  void SetFloors(const std::vector<double>& floors);
   /// The signatures follow floors that were raised from these.
   void RescaleSignatures(const Floors& before);
 

@@ -6,15 +6,14 @@
 #include "core/record/channels.h"
 #include "discovery/data/held_values.h"
 #include "discovery/model/case_model.h"
+#include "discovery/model/row_stretches.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr double kFilteredFrom = 1.35;      // of the white noise
-constexpr std::size_t kLeastStretches = 8;  // at least
-constexpr std::size_t kStretchLengths[] = {
-    1024, 512, 256};  // rows of a stretch, the longest of which there are enough
+constexpr double kFilteredFrom = 1.35;  // of the white noise
+constexpr std::size_t kLeastStretches = 8;
 
 bool HasOwnNoise(const CaseRecord& record, const std::string& channel) {
   return IsOfKind(channel, ChannelKind::kBus) || IsOfKind(channel, ChannelKind::kLoadCell) ||
@@ -22,33 +21,18 @@ bool HasOwnNoise(const CaseRecord& record, const std::string& channel) {
           record.scenario.start == StartState::kClamped);
 }
 
-/// Stretches of `length` rows all of which count, one behind the other.
-void AddStretches(const CaseModel& model, const Target& t, const std::vector<double>& predicted,
-                  std::size_t length, std::vector<ErrorStretch>& out) {
-  for (std::size_t first = t.first; first + length <= t.first + t.count;) {
-    std::size_t bad = length;
-    while (bad > 0 && model.ok()[first + bad - 1]) --bad;
-    if (bad > 0) {
-      first += bad;
-      continue;
-    }
+std::vector<ErrorStretch> ErrorStretches(const CaseModel& model,
+                                         const std::vector<const Target*>& of,
+                                         const std::vector<double>& predicted) {
+  std::vector<ErrorStretch> out;
+  for (const RowStretch& s : StretchesOf(model, of, kLeastStretches)) {
     out.emplace_back();
-    for (std::size_t k = first; k < first + length; ++k) {
+    for (std::size_t k = s.first; k < s.first + s.length; ++k) {
       out.back().error.push_back(model.measured()[k] - predicted[k]);
       out.back().predicted.push_back(predicted[k]);
     }
-    first += length;
   }
-}
-
-std::vector<ErrorStretch> StretchesOf(const CaseModel& model, const std::vector<const Target*>& of,
-                                      const std::vector<double>& predicted) {
-  for (const std::size_t length : kStretchLengths) {
-    std::vector<ErrorStretch> out;
-    for (const Target* t : of) AddStretches(model, *t, predicted, length, out);
-    if (out.size() >= kLeastStretches) return out;
-  }
-  return {};
+  return out;
 }
 
 }  // namespace
@@ -67,7 +51,7 @@ std::map<std::string, FilteredNoise> FilteredNoises(const CaseModel& model,
   for (const auto& [channel, of] : targets) {
     const auto own = white.find(channel);
     if (own == white.end() || !(own->second > 0)) continue;
-    const FilteredNoise found = NoiseOfStretches(StretchesOf(model, of, predicted), own->second);
+    const FilteredNoise found = NoiseOfStretches(ErrorStretches(model, of, predicted), own->second);
     if (found.rms > kFilteredFrom * own->second) out[channel] = found;
   }
   return out;

@@ -1,0 +1,98 @@
+#include "discovery/data/stretch_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "core/math/fft.h"
+#include "discovery/data/noise_estimate.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kDensitiesAgree = 1.35;  // of densities as rms, beside their scatter
+constexpr double kOfQuartile = 0.6745;    // normal number that a quarter exceeds
+constexpr double kFreedomOfLine = 1.05;   // of a line, with Hann's window
+constexpr std::size_t kFirstLine = 2;
+
+/// What a quarter (z < 0) or three quarters of mean squares of this freedom stay below, of their
+/// expectation.
+double QuantileOfPower(double freedom, double z) {
+  const double part = 2 / (9 * freedom);
+  return std::pow(1 - part + z * std::sqrt(part), 3);
+}
+
+}  // namespace
+
+StretchLines LinesOfStretch(const std::vector<double>& x) {
+  const std::size_t n = x.size();
+  std::vector<double> windowed(n);
+  double square = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double w =
+        0.5 - 0.5 * std::cos(2 * kPi * static_cast<double>(k) / static_cast<double>(n));
+    windowed[k] = w * x[k];
+    square += w * w;
+  }
+  StretchLines lines = RealFft(windowed);
+  for (std::complex<double>& c : lines) c /= std::sqrt(square);
+  return lines;
+}
+
+std::vector<LineBand> OctavesOf(const StretchLines& lines) {
+  const std::size_t end = lines.size() - 1;
+  std::vector<LineBand> octaves;
+  for (std::size_t from = kFirstLine; from < end; from *= 2)
+    octaves.push_back({from, std::min(2 * from, end)});
+  return octaves;
+}
+
+std::vector<double> LinePowers(const std::vector<StretchLines>& of, const LineBand& band) {
+  std::vector<double> means;
+  for (const StretchLines& lines : of) {
+    double mean = 0;
+    for (std::size_t k = band.from; k < band.to; ++k)
+      mean += std::norm(lines[k]) / static_cast<double>(band.count());
+    means.push_back(mean);
+  }
+  return means;
+}
+
+double LineCoherence(const std::vector<StretchLines>& a, const std::vector<StretchLines>& b,
+                     const LineBand& band) {
+  std::complex<double> product = 0;
+  double of_a = 0, of_b = 0;
+  for (std::size_t s = 0; s < a.size(); ++s)
+    for (std::size_t k = band.from; k < band.to; ++k) {
+      product += std::conj(a[s][k]) * b[s][k];
+      of_a += std::norm(a[s][k]);
+      of_b += std::norm(b[s][k]);
+    }
+  return of_a > 0 && of_b > 0 ? std::norm(product) / of_a / of_b : 0;
+}
+
+bool DensityRange::Agrees() const {
+  return three_quarters < kDensitiesAgree * kDensitiesAgree * quarter;
+}
+
+double IndependentLines(const std::vector<StretchLines>& of, const LineBand& band) {
+  double sum = 0, square = 0;
+  for (std::size_t k = band.from; k < band.to; ++k) {
+    double power = 0;
+    for (const StretchLines& lines : of) power += std::norm(lines[k]);
+    sum += power;
+    square += power * power;
+  }
+  return square > 0 ? sum * sum / square : static_cast<double>(band.count());
+}
+
+DensityRange DensitiesOf(const std::vector<StretchLines>& of, const LineBand& band,
+                         double independent) {
+  const std::vector<double> means = LinePowers(of, band);
+  const double freedom = std::max(2.0, kFreedomOfLine * independent);
+  return {QuantileOf(means, 0.25) / QuantileOfPower(freedom, -kOfQuartile),
+          QuantileOf(means, 0.75) / QuantileOfPower(freedom, kOfQuartile)};
+}
+
+}  // namespace ambrig
