@@ -34,12 +34,21 @@ struct ExplainCommand {
   bool verbose = false, long_runs = false;
 };
 
+/// What a reader has to know of a value without sd, beside others that have one.
+std::string RemarkOfValue(const EffectInstance& e, std::size_t k) {
+  const auto known = [](double sd) { return sd > 0; };
+  if (k >= e.sd.size() || known(e.sd[k]) || std::none_of(e.sd.begin(), e.sd.end(), known))
+    return "";
+  const EffectParameter& p = e.table[k];
+  return e.values[k] == p.lo || e.values[k] == p.hi ? " (at its limit)" : " (not determined)";
+}
+
 std::string ShortParametersText(const EffectInstance& e) {
   std::string text;
   for (std::size_t k = 0; k < e.table.size(); ++k)
-    text += fmt::format("{}{} = {:.4g}{}{}", k == 0 ? "" : ", ", e.table[k].name, e.values[k],
+    text += fmt::format("{}{} = {:.4g}{}{}{}", k == 0 ? "" : ", ", e.table[k].name, e.values[k],
                         k < e.sd.size() && e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "",
-                        e.table[k].unit == "-" ? "" : " " + e.table[k].unit);
+                        e.table[k].unit == "-" ? "" : " " + e.table[k].unit, RemarkOfValue(e, k));
   return text;
 }
 

@@ -18,6 +18,7 @@ constexpr double kSeenInDoubt = 2;    // the same by sd that the doubt of anothe
 constexpr double kSet = 0.95;         // probability of the set
 constexpr double kAboveFloor = 1.15;  // a channel's ratio that is worth a word
 constexpr std::size_t kPlaces = 8;
+constexpr double kLeavesDetails = 0.9, kMayLeaveDetails = 0.75;  // of the error, explained
 // Name probability: half at a share of 0.45; an explanation down to the floor is a name.
 constexpr double kHalfShare = 0.45, kSlope = 12, kAtFloor = 1.15;
 
@@ -87,21 +88,25 @@ Remainder RemainderOf(const CaseModel& model, const std::vector<double>& before,
     out.text = "the noise floor is reached on all records: nothing is left to explain";
     return out;
   }
-  const bool law = any_effect && closure.explained > 0.9 && least_share > 1.0 / 3;
+  const bool law = any_effect && closure.explained > kLeavesDetails && least_share > 1.0 / 3;
   out.kind = law ? RemainderKind::kLawVariation : RemainderKind::kOther;
   const std::string worst =
       out.where.empty()
           ? ""
           : fmt::format(", most at {} in {} ({:.1f} times the noise)", out.where[0].channel,
                         out.where[0].record, out.where[0].ratio);
+  if (law) {
+    out.text = fmt::format(
+        "{:.2f} times the noise stays{}: as large as the details of this law usually leave",
+        closure.floors_after, worst);
+    return out;
+  }
+  const bool doubtful = any_effect && closure.explained > kMayLeaveDetails && least_share > 1.0 / 3;
   out.text =
-      law ? fmt::format(
-                "{:.2f} times the noise stays{}: as large as the details of this law "
-                "usually leave",
-                closure.floors_after, worst)
-          : fmt::format("{:.2f} times the noise stays unexplained{}: of another origin than {}",
-                        closure.floors_after, worst,
-                        any_effect ? "what was found" : "the rig's parameters");
+      fmt::format("{:.2f} times the noise stays unexplained{}: {}", closure.floors_after, worst,
+                  doubtful     ? "of another origin, or a detail of what was found"
+                  : any_effect ? "of another origin than what was found"
+                               : "of another origin than the rig's parameters");
   return out;
 }
 

@@ -285,10 +285,6 @@ void SortByScore(std::vector<RankedEffect>& ranking) {
   std::ranges::stable_sort(ranking, {}, &RankedEffect::score);
 }
 
-bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
-  return a.name == b.name && a.target == b.target;
-}
-
 EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round) {
   return Ranker(setting, now, round).Run();
 }

@@ -30,8 +30,6 @@ struct RankedEffect {
 /// "eddy-currents at A"
 std::string Named(const EffectInstance& e);
 
-bool IsSameName(const EffectInstance& a, const EffectInstance& b);
-
 /// What a round works with.
 struct RoundSetting {
   const CaseModel &full, &model;  // all rows: frequencies; some: the fits

@@ -55,10 +55,6 @@ bool OnlyCoil(const RigParameters& rig, const EffectDescription& d, const std::s
   return b && b->coils() == 1 && d.target == TargetKind::kCoilOrBearing;
 }
 
-bool Same(const EffectInstance& a, const EffectInstance& b) {
-  return a.name == b.name && a.target == b.target;
-}
-
 /// The probes of a narrow effect that explain something of what `base` leaves; all where that
 /// cannot be tried. None where the records of a free rotor show no resonance that this effect could
 /// be.
@@ -151,7 +147,7 @@ bool MotionIsOpen(const CaseModel& model, const FitResult& base, SignatureBank& 
   const LinearJudge judge(model, base, bank, effective_sample_size);
   double most = 0;
   for (const SignatureBank::Entry& entry : bank.entries())
-    if (Same(entry.group.probes[0], ranked[0].effect))
+    if (IsSameName(entry.group.probes[0], ranked[0].effect))
       most = std::max(most, judge.MotionShare(entry));
   return most < kExplained;
 }
@@ -182,7 +178,7 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
                    [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
   for (Candidate& c : all) {
     auto same = std::find_if(out.begin(), out.end(),
-                             [&](const Candidate& o) { return Same(o.effect, c.effect); });
+                             [&](const Candidate& o) { return IsSameName(o.effect, c.effect); });
     if (same == out.end()) {
       out.push_back(std::move(c));
       continue;
@@ -196,6 +192,10 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
 }
 
 }  // namespace
+
+bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
+  return a.name == b.name && a.target == b.target;
+}
 
 std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,
@@ -274,7 +274,8 @@ std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& 
     std::vector<CandidatePair>& best = best_of[i];
     for (std::size_t j = i + 1; j < entries.size(); ++j) {
       const EffectInstance& b = entries[j].group.probes[0];
-      if (Same(a, b) || Present(base.hypothesis, b) || ChangesNothing(judge, entries[j])) continue;
+      if (IsSameName(a, b) || Present(base.hypothesis, b) || ChangesNothing(judge, entries[j]))
+        continue;
       CandidatePair p = judge.Pair(entries[i], entries[j]);
       if (std::isfinite(p.score)) best.push_back(std::move(p));
     }
@@ -290,7 +291,7 @@ std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& 
   for (CandidatePair& p : all) {
     if (out.size() >= count) break;
     if (std::none_of(out.begin(), out.end(), [&](const CandidatePair& o) {
-          return Same(o.first, p.first) && Same(o.second, p.second);
+          return IsSameName(o.first, p.first) && IsSameName(o.second, p.second);
         }))
       out.push_back(std::move(p));
   }

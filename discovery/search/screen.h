@@ -9,6 +9,9 @@
 
 namespace ambrig {
 
+/// Whether both are the same effect at the same target, whatever its size.
+bool IsSameName(const EffectInstance& a, const EffectInstance& b);
+
 struct ScreenOptions {
   double effective_sample_size = 1;
   std::string effect, target;  // only this one, at this target only; empty: all
