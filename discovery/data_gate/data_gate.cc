@@ -84,6 +84,7 @@ std::string Quantity(const DataFault& f) {
                        f.seconds > 0 ? "late" : "early");
   if (f.fault == "controller") return "had another controller than the file states";
   if (f.fault == "clip") return fmt::format("is clipped for {:.4g} ms", 1e3 * f.seconds);
+  if (f.with == kOtherMachine) return "is of another machine, or of this one in another state";
   if (f.with == kEmpty) return "is empty in the whole record";
   if (f.with == kWholeColumn)
     return fmt::format("holds {} in the whole record", f.fault == "lost" ? "0" : "one value");
@@ -100,6 +101,8 @@ std::string Correction(const DataFault& f) {
   if (f.with == kPhase) return "state the unit of its phases in the header of the file";
   if (f.with == kDecibels) return "write its magnitudes into the file as 20 log, or as they are";
   if (f.fault == "range") return "correct its values in the file, or leave them empty";
+  if (f.with == kOtherMachine)
+    return "leave it out, or explain it with the rig file of its machine";
   if (f.fault == "scenario") return "name the scenario that was run (scenario = \"...\")";
   return "correct the file";
 }

@@ -13,6 +13,9 @@ namespace ambrig {
 /// What is wrong with a whole column (DataFault::with).
 inline constexpr const char *kEmpty = "empty", *kWholeColumn = "whole record";
 
+/// A record of another machine, or of this one in another state (DataFault::with).
+inline constexpr const char* kOtherMachine = "another machine";
+
 /// Floors above which an error of a column is gross; below it a fit may speak first.
 inline constexpr double kGrossError = 10;
 

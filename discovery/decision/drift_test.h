@@ -13,10 +13,13 @@ struct DriftTest {
   bool holds = true;  // q within what 99 of 100 constant parameters show
 };
 
-/// Corrections `value` with information `weight` (1/variance) of each record.
-DriftTest TestDrift(const std::vector<double>& value, const std::vector<double>& weight);
+/// Corrections `value` with information `weight` (1/variance) of each record; `sd` by which records
+/// differ whatever they tell, in the unit of the values.
+DriftTest TestDrift(const std::vector<double>& value, const std::vector<double>& weight,
+                    double sd = 0);
 
-/// Of the free parameter number `parameter` of a fit with sensitivities, all records.
+/// Of the free parameter number `parameter` of a fit with sensitivities, all records, which may
+/// differ by a twentieth of the shift of a rig parameter.
 /// `weight`: of a squared error over the floor, per row (MisfitWeight over the rows).
 DriftTest TestDrift(const CaseModel& model, const FitResult& fit, std::size_t parameter,
                     double weight);

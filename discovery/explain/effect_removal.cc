@@ -7,8 +7,10 @@ namespace ambrig {
 
 void EffectRemoval::DropSizeless(const FitResult& base, FitResult& now) {
   // What the law of the first effect leaves may pass for a small effect beside it, but for none
-  // that explains its own channels.
+  // that explains its own channels. Where only its free shape explains the records the size of the
+  // law says little.
   const auto has_size = [&](std::size_t k) {
+    if (k == 0 && adopted_.ShapeExplainsAll()) return true;
     const bool plain =
         k == 0 || adopted_.IsOfOwnChannels(adopted_[k]) || adopted_.IsBesideShape(adopted_[k]);
     const std::size_t place = adopted_.PlaceOf(k);

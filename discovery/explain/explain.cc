@@ -6,6 +6,7 @@
 #include "discovery/case/test_records.h"
 #include "discovery/explain/explanation_search.h"
 #include "discovery/explain/record_corrections.h"
+#include "discovery/explain/record_of_other_machine.h"
 #include "discovery/explain/test_figures.h"
 #include "discovery/explain/unseen_error.h"
 
@@ -39,7 +40,9 @@ Explanation Explain(const Case& whole, const ExplainOptions& options) {
   const std::optional<Case> seen = WithoutTestRecords(whole);
   const Case& c = seen ? *seen : whole;
   Explanation e = SearchCorrected(c, options);
-  if (const auto record = OnlyUnseen(c, e)) {
+  if (const auto fault = RecordOfOtherMachine(c, e)) {
+    BelieveFault(*fault, e);
+  } else if (const auto record = OnlyUnseen(c, e)) {
     const Case more = WithFitted(c, *record);
     e = TheBetter(c, *record, std::move(e), SearchCorrected(more, options));
   }

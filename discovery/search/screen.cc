@@ -193,10 +193,6 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
 
 }  // namespace
 
-bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
-  return a.name == b.name && a.target == b.target;
-}
-
 std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,
                               SignatureBank& bank) {

@@ -10,7 +10,9 @@
 namespace ambrig {
 
 /// Whether both are the same effect at the same target, whatever its size.
-bool IsSameName(const EffectInstance& a, const EffectInstance& b);
+inline bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
+  return a.name == b.name && a.target == b.target;
+}
 
 struct ScreenOptions {
   double effective_sample_size = 1;

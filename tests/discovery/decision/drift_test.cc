@@ -25,6 +25,13 @@ TEST(TestDrift, OfTwoRecordsIsTheirDifference) {
   EXPECT_NEAR(TestDrift({1, 3}, {2, 6}).q, 2.0 * 6 / 8 * 4, 1e-12);
 }
 
+// What laws differ by adds to the variance of each: w = 1/(1/w1 + 0.5²).
+TEST(TestDrift, RecordsThatTellMoreFinelyThanLawsAgreeMayDiffer) {
+  EXPECT_NEAR(TestDrift({0, 3}, {1, 1}, 0.5).q, 4.5 / 1.25, 1e-12);
+  EXPECT_FALSE(TestDrift({1, 1.1}, {1e6, 1e6}).holds);
+  EXPECT_TRUE(TestDrift({1, 1.1}, {1e6, 1e6}, 0.05).holds);
+}
+
 // 99 of 100: 6.63 for one degree of freedom, 13.28 for four, 23.21 for ten (tables of chi-squared);
 // the approximation errs by less than 1 %.
 TEST(TestDrift, TheLimitIsThatOfChiSquared) {
