@@ -14,6 +14,8 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kWorthALaw = 0.3;  // of the unmodelled force, which a proposed law explains
+
 struct Worst {
   const Target* target = nullptr;
   double ratio = 0;
@@ -70,7 +72,7 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
     if (const auto force = DescribeMissingForce(model, fit.hypothesis, plane)) {
       u.dependence = fmt::format("{} ({:.0f} % of the unmodelled force of {:.2g} N rms)", force->on,
                                  100 * force->share, force->rms);
-      u.formula = force->formula;
+      if (force->share >= kWorthALaw) u.formula = force->formula;
     }
   }
   u.text = fmt::format(

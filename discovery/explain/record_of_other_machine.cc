@@ -19,7 +19,7 @@ constexpr double kShowsElsewhere = 1.5;  // of a channel of another record
 constexpr double kStandsOutAlone = 3;    // of a channel of this one
 constexpr double kBeyondTolerance = 4;   // sd of a rig parameter
 constexpr double kLooser = 10;           // sd of a machine that is another one, over the file's
-constexpr double kTold = 0.9;            // probability
+constexpr double kCertainty = 0.9;            // probability
 
 /// The record that all places of the remainder are in.
 std::optional<std::size_t> OnlyRecordInError(const Case& c, const Explanation& e) {
@@ -90,7 +90,7 @@ std::optional<DataFault> RecordOfOtherMachine(const Case& c, const Explanation& 
   f.with = kOtherMachine;
   f.detail = fmt::format("the other records agree with the rig file, this one alone with {}",
                          fmt::join(shifts, ", "));
-  f.probability = kTold;
+  f.probability = kCertainty;
   return f;
 }
 
