@@ -19,7 +19,7 @@ constexpr double kShowsElsewhere = 1.5;  // of a channel of another record
 constexpr double kStandsOutAlone = 3;    // of a channel of this one
 constexpr double kBeyondTolerance = 4;   // sd of a rig parameter
 constexpr double kLooser = 10;           // sd of a machine that is another one, over the file's
-constexpr double kCertainty = 0.9;            // probability
+constexpr double kCertainty = 0.9;       // probability
 
 /// The record that all places of the remainder are in.
 std::optional<std::size_t> OnlyRecordInError(const Case& c, const Explanation& e) {
