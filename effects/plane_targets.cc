@@ -1,7 +1,5 @@
 #include "effects/plane_targets.h"
 
-#include <cmath>
-
 namespace ambrig {
 
 BearingPlant& TargetPlane(const EffectInstance& effect, Plant& plant) {

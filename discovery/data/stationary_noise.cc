@@ -10,13 +10,12 @@ namespace ambrig {
 
 namespace {
 
-constexpr std::size_t kFewestStretches = 16;  // stretches
-constexpr double kDrivenApart = 3;            // strongest tenth over the weakest one
-constexpr double kCounts = 0.05;              // of the power, of an octave
-constexpr double kChance = 0.01;              // of a coherence as large, of all channels
-constexpr double kOfUnexpected = 1.0 / 3;     // of the power
-constexpr double kLine = 1.0 / 7;             // of an octave's power, of one line
-constexpr double kComesAndGoes = 0.35;        // variance of a line's power over its mean square
+constexpr double kDrivenApart = 3;         // strongest tenth over the weakest one
+constexpr double kCounts = 0.05;           // of the power, of an octave
+constexpr double kChance = 0.01;           // of a coherence as large, of all channels
+constexpr double kOfUnexpected = 1.0 / 3;  // of the power
+constexpr double kLine = 1.0 / 7;          // of an octave's power, of one line
+constexpr double kComesAndGoes = 0.35;     // variance of a line's power over its mean square
 
 double RmsAboutMean(const std::vector<double>& x) {
   double sum = 0, square = 0;
@@ -75,7 +74,7 @@ bool HasLine(const std::vector<StretchLines>& error, const LineBand& octave) {
 
 std::optional<StationaryNoise> StationaryNoiseOf(const std::vector<DrivenStretch>& stretches,
                                                  double expected) {
-  if (stretches.size() < kFewestStretches || !DrivenApart(stretches)) return {};
+  if (stretches.size() < kFewestOfNoise || !DrivenApart(stretches)) return {};
   std::vector<StretchLines> error;
   double square = 0;
   for (const DrivenStretch& s : stretches) {

@@ -2,6 +2,7 @@
 /// Whether what a model leaves of a channel is noise: the same in all stretches however they are
 /// driven, coherent with nothing that the model predicts, and of no line. A sensor's noise that
 /// goes round a control loop has any spectrum.
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -18,10 +19,13 @@ struct StationaryNoise {
   double middle = 0;  // of the octave that holds most of it, over the rate of the rows [-]
 };
 
+/// Stretches from which on the noise of a channel can be told.
+inline constexpr std::size_t kFewestOfNoise = 16;
+
 /// `stretches`: of equal length, a power of two; `expected`: rms of the noise that is known.
-/// Nothing where the error is something else, or where it cannot be told: fewer than 16 stretches,
-/// or all of them driven alike (the motion of the weakest tenth is above a third of that of the
-/// strongest).
+/// Nothing where the error is something else, or where it cannot be told: fewer than
+/// kFewestOfNoise, or all of them driven alike (the motion of the weakest tenth is above a third of
+/// that of the strongest).
 ///
 /// Of every octave that holds a twentieth of the error's power the middle half of the stretches
 /// agrees on the density; its coherence with no prediction exceeds what chance allows once in a

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/chi_squared.h"
 #include "core/math/constants.h"
 #include "core/math/fft.h"
 #include "discovery/data/noise_estimate.h"
@@ -16,11 +17,16 @@ constexpr double kOfQuartile = 0.6745;    // normal number that a quarter exceed
 constexpr double kFreedomOfLine = 1.05;   // of a line, with Hann's window
 constexpr std::size_t kFirstLine = 2;
 
-/// What a quarter (z < 0) or three quarters of mean squares of this freedom stay below, of their
-/// expectation.
-double QuantileOfPower(double freedom, double z) {
-  const double part = 2 / (9 * freedom);
-  return std::pow(1 - part + z * std::sqrt(part), 3);
+/// Mean power of these lines in each stretch.
+std::vector<double> LinePowers(const std::vector<StretchLines>& of, const LineBand& band) {
+  std::vector<double> means;
+  for (const StretchLines& lines : of) {
+    double mean = 0;
+    for (std::size_t k = band.from; k < band.to; ++k)
+      mean += std::norm(lines[k]) / static_cast<double>(band.count());
+    means.push_back(mean);
+  }
+  return means;
 }
 
 }  // namespace
@@ -46,17 +52,6 @@ std::vector<LineBand> OctavesOf(const StretchLines& lines) {
   for (std::size_t from = kFirstLine; from < end; from *= 2)
     octaves.push_back({from, std::min(2 * from, end)});
   return octaves;
-}
-
-std::vector<double> LinePowers(const std::vector<StretchLines>& of, const LineBand& band) {
-  std::vector<double> means;
-  for (const StretchLines& lines : of) {
-    double mean = 0;
-    for (std::size_t k = band.from; k < band.to; ++k)
-      mean += std::norm(lines[k]) / static_cast<double>(band.count());
-    means.push_back(mean);
-  }
-  return means;
 }
 
 double LineCoherence(const std::vector<StretchLines>& a, const std::vector<StretchLines>& b,
@@ -91,8 +86,8 @@ DensityRange DensitiesOf(const std::vector<StretchLines>& of, const LineBand& ba
                          double independent) {
   const std::vector<double> means = LinePowers(of, band);
   const double freedom = std::max(2.0, kFreedomOfLine * independent);
-  return {QuantileOf(means, 0.25) / QuantileOfPower(freedom, -kOfQuartile),
-          QuantileOf(means, 0.75) / QuantileOfPower(freedom, kOfQuartile)};
+  return {QuantileOf(means, 0.25) / QuantileOfMeanSquare(freedom, -kOfQuartile),
+          QuantileOf(means, 0.75) / QuantileOfMeanSquare(freedom, kOfQuartile)};
 }
 
 }  // namespace ambrig

@@ -23,17 +23,13 @@ struct LineBand {
 /// half the rate.
 std::vector<LineBand> OctavesOf(const StretchLines& lines);
 
-/// Mean power of these lines in each stretch.
-std::vector<double> LinePowers(const std::vector<StretchLines>& of, const LineBand& band);
-
 /// Squared coherence of these lines in all stretches, 0 to 1.
 double LineCoherence(const std::vector<StretchLines>& a, const std::vector<StretchLines>& b,
                      const LineBand& band);
 
 /// Density of these lines that a quarter and three quarters of the stretches stay below, each
 /// corrected for the scatter of noise: of noise that is the same in all stretches both are its
-/// density. Quantiles of chi-squared numbers: E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad.
-/// Sci. 17 (1931).
+/// density.
 struct DensityRange {
   double quarter, three_quarters;
   /// Whether the middle half of the stretches agrees.

@@ -170,15 +170,19 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   SettleSecondRound(model.data().rig.effects.size(), out);
 }
 
-void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {
+void BelieveData(Explanation& out) {
   out.verdict = ExplanationVerdict::kData;
   double wrong = 0;
   for (const DataFault& f : out.data) wrong = std::max(wrong, f.probability);
   out.set = {{"data", "", wrong}};
   if (wrong < 0.95) out.set.push_back({"unknown", "", 1 - wrong});
+  out.remainder.text = "the data are wrong: mend them before anything is fitted";
+}
+
+void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {
   out.closure = ClosureOf(model, nominal.residual, nominal.residual);
   out.remainder = RemainderOf(model, nominal.residual, nominal.residual, out.closure, false);
-  out.remainder.text = "the data are wrong: mend them before anything is fitted";
+  BelieveData(out);
 }
 
 }  // namespace ambrig

@@ -19,6 +19,9 @@ ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effect
 void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult& base,
               const FitResult& last, const UnitErrors& of_units, Explanation& out);
 
+/// Verdict `data` and its set, by the faults in out.data.
+void BelieveData(Explanation& out);
+
 /// Verdict `data`: the faults that were found before any fit.
 void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out);
 

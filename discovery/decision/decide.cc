@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/chi_squared.h"
+
 namespace ambrig {
 
 namespace {
@@ -17,11 +19,9 @@ constexpr double kIntegratorsDiffer = 0.015;  // of the squared ratio
 constexpr double kMostExplained = 0.9;        // of the squared error above the floor
 
 /// What a sum of n squared normal numbers exceeds once in 1000.
-/// Source: E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931).
 double OnceInAThousand(double n) {
   constexpr double kNormal = 3.0902;
-  const double part = 2 / (9 * n);
-  return n * std::pow(1 - part + kNormal * std::sqrt(part), 3);
+  return n * QuantileOfMeanSquare(n, kNormal);
 }
 
 double PriorsOf(const FitResult& fit) {

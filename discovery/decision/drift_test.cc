@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/math/chi_squared.h"
+
 namespace ambrig {
 
 namespace {
@@ -12,10 +14,10 @@ namespace {
 // simulators, let alone of a rig, agree.
 constexpr double kLawsDiffer = 0.05;
 
-/// The value that 99 of 100 chi-squared numbers with this freedom do not exceed (Wilson-Hilferty).
+/// The value that 99 of 100 chi-squared numbers with this freedom do not exceed.
 double ChiSquared99(int freedom) {
-  const double n = freedom, z = 2.3263, c = 2 / (9 * n);
-  return n * std::pow(1 - c + z * std::sqrt(c), 3);
+  constexpr double kNormal = 2.3263;
+  return freedom * QuantileOfMeanSquare(freedom, kNormal);
 }
 
 }  // namespace

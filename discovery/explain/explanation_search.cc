@@ -97,7 +97,7 @@ Explanation ExplanationSearch::Search(const Hypothesis& nominal, const FitResult
         "the loop of the model found passes more noise than the rig file's: the noise floor is "
         "the found model's");
   const std::vector<NuisanceFound> amounts = AmountsAtTheEnd(now);
-  if (adopted_.empty() && IsNoise(base)) {
+  if (adopted_.empty() && TakeForNoise(base)) {
     const FitResult filed = models_.At(as_filed.hypothesis);
     base = now = models_.At(base.hypothesis);
     report_.NoteNominal(UnseenRatio(models_.thinned(), filed.residual));
@@ -107,7 +107,7 @@ Explanation ExplanationSearch::Search(const Hypothesis& nominal, const FitResult
   return report_.Final(as_filed, base, now, amounts, nuisances_.of_coils().of_units);
 }
 
-bool ExplanationSearch::IsNoise(const FitResult& base) {
+bool ExplanationSearch::TakeForNoise(const FitResult& base) {
   constexpr double kNoiseLeft = 1.05;  // error over the floor
   if (RatiosOf(models_.thinned(), base).Answered() < kNoiseLeft) return false;
   const FitResult all = models_.AtAllRows(base);

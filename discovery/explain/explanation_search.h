@@ -60,9 +60,9 @@ class ExplanationSearch {
   /// Errors of the data that show beside the effects found and did not beside the rig file's model;
   /// whether there are any.
   bool FindWrongData(const FitResult& now);
-  /// Whether all that the rig parameters leave looks like noise; then the floors are those of this
-  /// noise.
-  bool IsNoise(const FitResult& base);
+  /// Raises the floors to what the rig parameters leave, where all of it looks like noise; whether
+  /// it does.
+  bool TakeForNoise(const FitResult& base);
   /// Amounts of the nuisances at the end.
   std::vector<NuisanceFound> AmountsAtTheEnd(const FitResult& now);
 

@@ -72,18 +72,19 @@ std::optional<DataFault> RecordOfOtherMachine(const Case& c, const Explanation& 
   if (e.verdict != ExplanationVerdict::kUnknown || c.records.size() < 3) return {};
   const auto record = OnlyRecordInError(c, e);
   if (!record) return {};
-  Case others = c, alone = c;
+  Case alone = c, others = c;
   others.records.erase(others.records.begin() + static_cast<std::ptrdiff_t>(*record));
+  if (std::ranges::all_of(others.records, [](const CaseRecord& r) { return r.validate; }))
+    return {};
   alone.records = {c.records[*record]};
   alone.records[0].validate = false;
   for (Tolerance& t : alone.rig.tolerances) t.sd *= kLooser;
-  if (std::ranges::all_of(others.records, [](const CaseRecord& r) { return r.validate; }))
-    return {};
   const auto of_record = FitParameters(alone);
   if (!of_record || of_record->before < kShowsElsewhere || of_record->after > kAtNoise) return {};
   const std::vector<std::string> shifts = of_record->Beyond(kLooser);
+  if (shifts.empty()) return {};
   const auto of_others = FitParameters(others);
-  if (shifts.empty() || !of_others || of_others->after > kAtNoise) return {};
+  if (!of_others || of_others->after > kAtNoise) return {};
   DataFault f;
   f.record = c.records[*record].data_file;
   f.fault = "scenario";
@@ -95,13 +96,11 @@ std::optional<DataFault> RecordOfOtherMachine(const Case& c, const Explanation& 
 }
 
 void BelieveFault(const DataFault& fault, Explanation& e) {
-  e.verdict = ExplanationVerdict::kData;
   e.data = {fault};
+  BelieveData(e);
   e.adopted.clear();
   e.ranking.clear();
   e.second_round.clear();
-  e.set = {{"data", "", fault.probability}, {"unknown", "", 1 - fault.probability}};
-  e.remainder.text = "the data are wrong: mend them before anything is fitted";
   e.unexplained = {};
   e.confusable.clear();
 }

@@ -16,9 +16,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kNothingAbove = 1.1;       // error over the floor, nothing to be explained
-constexpr double kRecordsAlike = 1.25;      // error of a record over that of all
-constexpr std::size_t kFewestOfNoise = 16;  // stretches
+constexpr double kNothingAbove = 1.1;   // error over the floor, nothing to be explained
+constexpr double kRecordsAlike = 1.25;  // error of a record over that of all
 
 using Targets = std::vector<const Target*>;
 
