@@ -56,6 +56,8 @@ std::string WhyNot(const Explanation& e, bool unseen) {
     return "";
   const FitResult& best = e.ranking.front().fit;
   const std::string name = EffectName(e.ranking.front().effect);
+  if (e.verdict == ExplanationVerdict::kUnknown && e.remainder.kind == RemainderKind::kNone)
+    return name + " is not adopted: the rig's parameters explain the records as well.";
   if (e.verdict == ExplanationVerdict::kUnknown)
     return fmt::format(
         "{} is not adopted: with it {:.2f} times the noise is left{}, which the noise alone does "

@@ -51,23 +51,12 @@ bool FollowsPrediction(const std::vector<StretchLines>& error,
 
 /// Whether some line of the octave stands still: the power of noise in it would come and go.
 bool HasLine(const std::vector<StretchLines>& error, const LineBand& octave) {
-  std::vector<double> mean, variance;
+  const std::vector<LinePower> powers = PowersOf(error, octave);
   double all = 0;
-  for (std::size_t k = octave.from; k < octave.to; ++k) {
-    double sum = 0, square = 0;
-    for (const StretchLines& lines : error) {
-      const double power = std::norm(lines[k]);
-      sum += power;
-      square += power * power;
-    }
-    const auto n = static_cast<double>(error.size());
-    mean.push_back(sum / n);
-    variance.push_back(square / n - sum / n * sum / n);
-    all += sum / n;
-  }
-  for (std::size_t k = 0; k < mean.size(); ++k)
-    if (mean[k] > kLine * all && variance[k] < kComesAndGoes * mean[k] * mean[k]) return true;
-  return false;
+  for (const LinePower& line : powers) all += line.mean;
+  return std::ranges::any_of(powers, [&](const LinePower& line) {
+    return line.mean > kLine * all && line.variance < kComesAndGoes * line.mean * line.mean;
+  });
 }
 
 }  // namespace

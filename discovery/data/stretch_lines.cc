@@ -71,13 +71,26 @@ bool DensityRange::Agrees() const {
   return three_quarters < kDensitiesAgree * kDensitiesAgree * quarter;
 }
 
+std::vector<LinePower> PowersOf(const std::vector<StretchLines>& of, const LineBand& band) {
+  std::vector<LinePower> out;
+  const auto n = static_cast<double>(of.size());
+  for (std::size_t k = band.from; k < band.to; ++k) {
+    double sum = 0, square = 0;
+    for (const StretchLines& lines : of) {
+      const double power = std::norm(lines[k]);
+      sum += power;
+      square += power * power;
+    }
+    out.push_back({sum / n, square / n - sum / n * sum / n});
+  }
+  return out;
+}
+
 double IndependentLines(const std::vector<StretchLines>& of, const LineBand& band) {
   double sum = 0, square = 0;
-  for (std::size_t k = band.from; k < band.to; ++k) {
-    double power = 0;
-    for (const StretchLines& lines : of) power += std::norm(lines[k]);
-    sum += power;
-    square += power * power;
+  for (const LinePower& line : PowersOf(of, band)) {
+    sum += line.mean;
+    square += line.mean * line.mean;
   }
   return square > 0 ? sum * sum / square : static_cast<double>(band.count());
 }

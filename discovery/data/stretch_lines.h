@@ -39,6 +39,13 @@ struct DensityRange {
 DensityRange DensitiesOf(const std::vector<StretchLines>& of, const LineBand& band,
                          double independent);
 
+/// Power of one line over all stretches [square of the unit].
+struct LinePower {
+  double mean, variance;
+};
+/// Of every line of the band.
+std::vector<LinePower> PowersOf(const std::vector<StretchLines>& of, const LineBand& band);
+
 /// How many lines of equal power vary as the power of this band does: fewer than it has where a
 /// resonance stands out.
 double IndependentLines(const std::vector<StretchLines>& of, const LineBand& band);

@@ -161,6 +161,10 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
+  if (out.verdict == ExplanationVerdict::kUnknown && out.remainder.kind == RemainderKind::kNone)
+    out.remainder.text =
+        "the noise floor is reached only with rig parameters beyond their tolerances, or on whose "
+        "values the records do not agree";
   if (out.closure.floors_after > kNoiseLeft &&
       ((within_units && out.verdict == ExplanationVerdict::kParameters) ||
        (rest_within_units && established)))

@@ -118,7 +118,9 @@ std::optional<NuisanceSelection::Before> NuisanceSelection::Try(FitResult& now, 
       NuisanceKindsOf(models_.full(), now.hypothesis, all.predicted, false), now, effects_found);
   if (chosen.empty()) return {};
   Before state = {Used(), models_.signatures(), {}};
-  UseOfRecords(chosen);
+  of_records_ = chosen;
+  Apply();
+  models_.signatures().TakeOffNuisances(model);
   const auto give_up = [&]() -> std::optional<Before> {
     UseAgain(state.used);
     models_.signatures() = std::move(state.signatures);

@@ -26,11 +26,19 @@ Case Corrected(const Case& c, const RecordCorrections& corrections) {
 void ReportCorrections(const Case& c, const RecordCorrections& corrections, Explanation& e) {
   const std::vector<int>& late = corrections.rows_late;
   const std::vector<double>& larger = corrections.inputs_larger;
-  for (std::size_t r = 0; r < late.size(); ++r)
-    if (late[r] != 0)
+  for (std::size_t r = 0; r < late.size(); ++r) {
+    const CaseRecord& record = c.records[r];
+    bool told = late[r] == 0;
+    for (NuisanceFound& f : e.nuisances)
+      if (f.name == kTimeShift && f.record == record.data_file) {
+        f.value += late[r] / record.data.rate;  // what is left of the clock when its rows are moved
+        told = true;
+      }
+    if (!told)
       e.warnings.push_back(fmt::format(
-          "the clock of {} is {} row{} {}: its rows are moved", c.records[r].data_file,
-          std::abs(late[r]), std::abs(late[r]) == 1 ? "" : "s", late[r] > 0 ? "late" : "early"));
+          "the clock of {} is {} row{} {}: its rows are moved", record.data_file, std::abs(late[r]),
+          std::abs(late[r]) == 1 ? "" : "s", late[r] > 0 ? "late" : "early"));
+  }
   for (std::size_t r = 0; r < larger.size(); ++r) {
     bool told = larger[r] == 0;
     for (NuisanceFound& f : e.nuisances)

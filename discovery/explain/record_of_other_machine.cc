@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "discovery/decision/conclusion.h"
+#include "discovery/decision/parameter_shifts.h"
 #include "discovery/explain/search_models.h"
 
 namespace ambrig {
@@ -36,18 +37,6 @@ std::optional<std::size_t> OnlyRecordInError(const Case& c, const Explanation& e
 struct ParameterFit {
   double before = 0, after = 0;  // error over the noise of the worst record
   Hypothesis found;
-
-  /// "bearings.A.gap +5.2 sd" of those beyond what tolerances allow; `looser`: sd of the fit over
-  /// that of the rig file.
-  std::vector<std::string> Beyond(double looser) const {
-    std::vector<std::string> out;
-    for (std::size_t k = 0; k < found.free.size(); ++k) {
-      const double shift = found.free[k].sd > 0 ? looser * found.Coordinate(k) : 0;
-      if (std::abs(shift) > kBeyondTolerance)
-        out.push_back(fmt::format("{} {:+.1f} sd", found.free[k].path, shift));
-    }
-    return out;
-  }
 };
 
 std::optional<ParameterFit> FitParameters(const Case& c) {
@@ -81,7 +70,8 @@ std::optional<DataFault> RecordOfOtherMachine(const Case& c, const Explanation& 
   for (Tolerance& t : alone.rig.tolerances) t.sd *= kLooser;
   const auto of_record = FitParameters(alone);
   if (!of_record || of_record->before < kShowsElsewhere || of_record->after > kAtNoise) return {};
-  const std::vector<std::string> shifts = of_record->Beyond(kLooser);
+  const std::vector<std::string> shifts =
+      ParameterShifts(of_record->found, kBeyondTolerance, kLooser);
   if (shifts.empty()) return {};
   const auto of_others = FitParameters(others);
   if (!of_others || of_others->after > kAtNoise) return {};

@@ -8,6 +8,7 @@
 #include "discovery/search/candidate_promise.h"
 #include "discovery/search/likelihood.h"
 #include "discovery/search/residual_peaks.h"
+#include "discovery/search/worst_records.h"
 
 namespace ambrig {
 
@@ -60,6 +61,8 @@ class Ranker {
     const auto predicted = s_.full.Predict(now_.hypothesis);
     const ResidualPeaks peaks =
         predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
+    if (MayBeStale() && s_.bank.LacksHalfOf(RecordsShowing(s_.model, now_)))
+      s_.bank = SignatureBank();
     out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
     if (AreStale()) {
       s_.bank = SignatureBank();
@@ -83,16 +86,20 @@ class Ranker {
   }
 
  private:
-  /// Signatures of an earlier round were taken without what has been adopted since. A lag of the
-  /// readings shows only in a shaft that moves: where much is left and no signature promises half
-  /// of it, all are taken again.
+  /// Whether signatures were taken without what has been adopted since, and much is left.
+  bool MayBeStale() const {
+    constexpr double kMuch = 2;  // ratio
+    return round_ > 0 && std::min(now_.ratio_fit, now_.ratio_validate) >= kMuch &&
+           std::ranges::any_of(s_.bank.entries(), [&](const SignatureBank::Entry& e) {
+             return !HoldSameEffects(*e.base, now_.hypothesis);
+           });
+  }
+
+  /// A lag of the readings shows only in a shaft that moves: where much is left and no signature of
+  /// an earlier model promises half of it, all are taken again.
   bool AreStale() const {
-    constexpr double kMuch = 2, kHalf = 0.5;  // ratio, share of the error
-    if (round_ == 0 || std::min(now_.ratio_fit, now_.ratio_validate) < kMuch) return false;
-    if (std::ranges::all_of(s_.bank.entries(), [&](const SignatureBank::Entry& e) {
-          return HoldSameEffects(*e.base, now_.hypothesis);
-        }))
-      return false;
+    constexpr double kHalf = 0.5;  // share of the error
+    if (!MayBeStale()) return false;
     const auto share = [&](const Candidate& c) {
       return std::min(ExplainedShare(now_.ratio_fit, c.ratio_fit),
                       ExplainedShare(now_.ratio_validate, c.ratio_validate));
@@ -121,8 +128,8 @@ class Ranker {
     ScreenOptions screen;
     screen.effective_sample_size = s_.effective_sample_size;
     screen.coarse = true;
-    SignatureBank bank;
-    std::vector<Candidate> found = Screen(s_.model, nominal_, ResidualPeaks(), screen, bank);
+    // The signatures of the fit so far serve: what an effect changes depends little on the shifts.
+    std::vector<Candidate> found = Screen(s_.model, nominal_, ResidualPeaks(), screen, s_.bank);
     // beside effects one linear step brings far parameters back only in part
     if (round_ == 0) std::erase_if(found, [&](const Candidate& c) { return c.score > here_; });
     found.resize(std::min(found.size(), kTried));

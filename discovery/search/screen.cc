@@ -43,6 +43,11 @@ bool SeeksFrequency(const EffectDescription& d) {
                      [](const EffectParameter& p) { return p.name == "frequency"; });
 }
 
+/// Whether a coarse screen tries it.
+bool IsCoarse(const EffectInstance& e) {
+  return !NamesCoil(e.target) && !SeeksFrequency(EffectNamed(e.name));
+}
+
 bool Present(const Hypothesis& h, const EffectInstance& e) {
   return std::any_of(h.rig.effects.begin(), h.rig.effects.end(), [&](const EffectInstance& o) {
     return o.name == e.name && o.target == e.target;
@@ -162,13 +167,14 @@ bool ChangesNothing(const LinearJudge& judge, const SignatureBank::Entry& entry)
 
 /// Best start of every (effect, target) that the fit does not hold yet, with the next best beside
 /// it.
-std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, SignatureBank& bank,
-                            double effective_sample_size) {
-  const LinearJudge judge(model, base, bank, effective_sample_size);
+std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base,
+                            const ScreenOptions& options, SignatureBank& bank) {
+  const LinearJudge judge(model, base, bank, options.effective_sample_size);
   std::vector<Candidate> all, out;
   for (std::size_t k = 0; k < bank.entries().size(); ++k) {
     const SignatureBank::Entry& entry = bank.entries()[k];
     if (Present(base.hypothesis, entry.group.probes[0])) continue;
+    if (options.coarse && !IsCoarse(entry.group.probes[0])) continue;
     if (ChangesNothing(judge, entry)) continue;
     Candidate c = judge.Single(entry);
     c.entry = k;
@@ -196,8 +202,8 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
 std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,
                               SignatureBank& bank) {
-  if (!options.coarse) bank.LookAt(model, RecordsShowing(model, base));
   const bool again = !bank.entries().empty();
+  if (!options.coarse || again) bank.LookAt(model, RecordsShowing(model, base));
   const auto part = [&](double from, double to) {
     return [&options, from, to](double f, const std::string& text) {
       if (options.progress) options.progress(from + (to - from) * f, text);
@@ -208,7 +214,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
     if (kind == ScreenedKind::kResonances) part(from, to)(0, "resonances");
     bank.Simulate(model, base, GroupsToRun(model, base, peaks, kind, options, bank, again),
                   part(from, to));
-    out = Rank(model, base, bank, options.effective_sample_size);
+    out = Rank(model, base, options, bank);
   };
   screen(ScreenedKind::kOrdinary, 0, 0.4);
   const bool asked = !options.effect.empty();
@@ -216,9 +222,11 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                 MotionIsOpen(model, base, bank, out, options.effective_sample_size)))
     screen(ScreenedKind::kResonances, 0.4, 0.7);
   if (options.coarse || HoldsCoils(bank)) return out;
-  // Signatures that are there come from an earlier look, after which only what stands out in a
-  // channel is worth so many.
-  if (again && WorstRatio(model, base.residual, Which::kFit) < kStandsOut) return out;
+  // Beside what was found, or after an earlier look, only what stands out in a channel is worth so
+  // many.
+  if ((again || HoldsAdopted(model, base)) &&
+      WorstRatio(model, base.residual, Which::kFit) < kStandsOut)
+    return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {
     return after * after - 1 > std::max(0.01, 0.03 * (before * before - 1));

@@ -221,6 +221,16 @@ bool SignatureBank::partial() const {
   return look_ && std::count(look_->records.begin(), look_->records.end(), 0) > 0;
 }
 
+bool SignatureBank::LacksHalfOf(const RecordSubset& look) const {
+  std::size_t all = 0, lacking = 0;
+  for (std::size_t r = 0; r < look.records.size(); ++r) {
+    if (!look.records[r]) continue;
+    ++all;
+    if (!LooksAt(r)) ++lacking;
+  }
+  return 2 * lacking >= all;
+}
+
 Eigen::VectorXd SignatureBank::Sum(const Entry& entry, const Eigen::VectorXd& amount) const {
   return (columns_.middleCols(entry.first, entry.count()) * amount.cast<float>()).cast<double>();
 }

@@ -46,6 +46,10 @@ class SignatureBank {
   /// Whether some record was left out.
   bool partial() const;
 
+  /// Whether the rows of half of these records or more are yet to be simulated: to take all
+  /// signatures anew then costs little more.
+  bool LacksHalfOf(const RecordSubset& look) const;
+
   /// Whether the signatures hold this record's rows.
   bool LooksAt(std::size_t record) const { return !look_ || look_->records[record]; }
   /// The entry's signatures, each by its amount.

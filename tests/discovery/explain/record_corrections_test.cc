@@ -67,5 +67,16 @@ TEST(ReportCorrections, AddsToTheSizeFoundOrWarns) {
   EXPECT_THAT(e.warnings[1], HasSubstr("the commands of at 3e-05 m are 2.00 % smaller"));
 }
 
+// Two statements on one clock would have to be added by the reader.
+TEST(ReportCorrections, AddsTheRowsMovedToTheShiftFound) {
+  const Case c = LinearCase::Make({1e-5, 2e-5, 3e-5}, 1, 0);
+  const double row = 1 / c.records[1].data.rate;
+  Explanation e;
+  e.nuisances = {{c.records[1].data_file, kTimeShift, "s", -1.9 * row, 0.01 * row}};
+  ReportCorrections(c, {{0, 2, 0}, {}}, e);
+  EXPECT_NEAR(e.nuisances[0].value, 0.1 * row, 1e-12 * row);
+  EXPECT_TRUE(e.warnings.empty());
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/coil_name.h"
 #include "discovery/search/effect_round.h"
 #include "tests/discovery/linear_case.h"
 
@@ -144,6 +145,16 @@ TEST(Screen, TriesSingleCoilsLaterWhereAChannelStandsOut) {
   EXPECT_EQ(coils(bank), 0);
   Screen(model, base, {}, o, bank);
   EXPECT_GT(coils(bank), 0);
+  // A coarse screen of the same bank leaves them out and simulates nothing.
+  o.coarse = true;
+  const long runs = model.runs;
+  const std::vector<Candidate> few = Screen(model, base, {}, o, bank);
+  EXPECT_EQ(model.runs, runs);
+  ASSERT_FALSE(few.empty());
+  for (const Candidate& k : few) {
+    EXPECT_FALSE(NamesCoil(k.effect.target)) << k.effect.target;
+    for (const EffectParameter& p : k.effect.table) EXPECT_NE(p.name, "frequency");
+  }
 }
 
 // The readings of B are not in the case: an effect there is half of no pair, whatever the other

@@ -83,6 +83,22 @@ TEST(SignatureBank, WhatThrowsASmallRotorOffIsTakenSmaller) {
   EXPECT_GT(Jacobian(model, little, {base.hypothesis.free.size()}).norm(), 0);
 }
 
+TEST(SignatureBank, LacksTheRecordsThatItHasNotLookedAt) {
+  const LinearCase c({2e-5, 4e-5, 6e-5, 5e-5}, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  bank.LookAt(c.model, {{1, 1, 0, 0}, base.predicted});
+  ProbeGroup gain;
+  gain.probes = {LinearCase::Gain(1.05)};
+  gain.rows = {0};
+  bank.Simulate(c.model, base, {gain}, nullptr);
+  EXPECT_FALSE(bank.LacksHalfOf({{1, 1, 0, 0}, {}}));
+  EXPECT_FALSE(bank.LacksHalfOf({{1, 1, 1, 0}, {}}));
+  EXPECT_TRUE(bank.LacksHalfOf({{1, 1, 1, 1}, {}}));
+  bank.LookAt(c.model, {{0, 0, 1, 0}, base.predicted});
+  EXPECT_FALSE(bank.LacksHalfOf({{1, 1, 1, 1}, {}}));
+}
+
 // A zero of A.x in each record, taken off afterwards or while the probes are simulated.
 TEST(SignatureBank, NuisancesComeOffAfterwardsAsWhileSimulated) {
   LinearCase c({2e-5, 4e-5, 6e-5, 5e-5}, 1.08, 0);
