@@ -10,6 +10,7 @@
 #include "discovery/data_gate/data_gate.h"
 #include "discovery/decision/decide.h"
 #include "discovery/decision/evidence.h"
+#include "discovery/search/visible_size.h"
 
 namespace ambrig {
 

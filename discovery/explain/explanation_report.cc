@@ -7,6 +7,7 @@
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/parameter_shifts.h"
+#include "discovery/search/visible_size.h"
 
 namespace ambrig {
 

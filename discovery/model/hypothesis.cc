@@ -73,6 +73,12 @@ void Hypothesis::AddEffect(const EffectInstance& effect) {
   }
 }
 
+bool Hypothesis::Holds(const EffectInstance& effect) const {
+  return std::ranges::any_of(rig.effects, [&](const EffectInstance& e) {
+    return e.name == effect.name && e.target == effect.target;
+  });
+}
+
 void Hypothesis::Set(std::size_t parameter, double value) {
   FreeParameter& p = free[parameter];
   p.value = std::clamp(value, p.lo, p.hi);

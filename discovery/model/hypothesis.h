@@ -29,6 +29,8 @@ struct Hypothesis {
   static Hypothesis Base(const RigParameters& rig);
   /// Adds an effect; its parameters become free.
   void AddEffect(const EffectInstance& effect);
+  /// Whether it has an effect of this name at this target.
+  bool Holds(const EffectInstance& effect) const;
   void Set(std::size_t parameter, double value);
   /// Internal coordinate of a parameter: offset over step, or log ratio; and back.
   double Coordinate(std::size_t parameter) const;

@@ -48,12 +48,6 @@ bool IsCoarse(const EffectInstance& e) {
   return !NamesCoil(e.target) && !SeeksFrequency(EffectNamed(e.name));
 }
 
-bool Present(const Hypothesis& h, const EffectInstance& e) {
-  return std::any_of(h.rig.effects.begin(), h.rig.effects.end(), [&](const EffectInstance& o) {
-    return o.name == e.name && o.target == e.target;
-  });
-}
-
 /// The coil of a bearing that has no other: the bearing as a target says the same.
 bool OnlyCoil(const RigParameters& rig, const EffectDescription& d, const std::string& target) {
   const BearingParameters* b = rig.Find(target.substr(0, target.find('.')));
@@ -66,7 +60,7 @@ bool OnlyCoil(const RigParameters& rig, const EffectDescription& d, const std::s
 std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
                                 const std::vector<ProbeGroup>& probes, const SeenResonances& seen,
                                 double effective_sample_size) {
-  if (Present(base.hypothesis, probes[0].probes[0])) return {};
+  if (base.hypothesis.Holds(probes[0].probes[0])) return {};
   try {
     const EffectInstance null =
         MakeInstance(EffectNamed(probes[0].probes[0].name), probes[0].probes[0].target);
@@ -118,7 +112,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
       if (IsResonance(d) || d.needs.contact)
         probes = Scanned(model, base, probes, seen, options.effective_sample_size);
       for (ProbeGroup& g : probes)
-        if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0]))
+        if (!base.hypothesis.Holds(g.probes[0]) && !bank.Holds(g.probes[0]))
           groups.push_back(std::move(g));
     }
   }
@@ -173,7 +167,7 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base,
   std::vector<Candidate> all, out;
   for (std::size_t k = 0; k < bank.entries().size(); ++k) {
     const SignatureBank::Entry& entry = bank.entries()[k];
-    if (Present(base.hypothesis, entry.group.probes[0])) continue;
+    if (base.hypothesis.Holds(entry.group.probes[0])) continue;
     if (options.coarse && !IsCoarse(entry.group.probes[0])) continue;
     if (ChangesNothing(judge, entry)) continue;
     Candidate c = judge.Single(entry);
@@ -238,33 +232,6 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
   return out;
 }
 
-std::vector<VisibleSize> VisibleSizes(const CaseModel& model, const FitResult& base,
-                                      double effective_sample_size, SignatureBank& bank) {
-  const LinearJudge judge(model, base, bank, effective_sample_size);
-  std::vector<std::pair<double, VisibleSize>> all;
-  for (const SignatureBank::Entry& entry : bank.entries()) {
-    const ProbeGroup& g = entry.group;
-    if (!g.linear || g.narrow || Present(base.hypothesis, g.probes[0])) continue;
-    for (Eigen::Index k = 0; k < entry.count(); ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const EffectParameter& p = g.probes[i].table[g.rows[i]];
-      const double usual = std::abs(g.probes[i].values[g.rows[i]] - p.null_value),
-                   least = judge.LeastVisible(entry, k);
-      const VisibleSize v = {g.probes[i].name, g.probes[i].target, p.name, p.unit, least * usual};
-      if (std::none_of(all.begin(), all.end(), [&](const auto& o) {
-            return o.second.effect == v.effect && o.second.target == v.target &&
-                   o.second.parameter == v.parameter;
-          }))
-        all.emplace_back(least, v);
-    }
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<VisibleSize> out;
-  for (const auto& [share, v] : all) out.push_back(v);
-  return out;
-}
-
 std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base,
                                        double effective_sample_size, SignatureBank& bank,
                                        std::size_t count) {
@@ -274,11 +241,11 @@ std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& 
   std::vector<std::vector<CandidatePair>> best_of(entries.size());
   InParallel(entries.size(), [&](std::size_t i) {
     const EffectInstance& a = entries[i].group.probes[0];
-    if (Present(base.hypothesis, a) || ChangesNothing(judge, entries[i])) return;
+    if (base.hypothesis.Holds(a) || ChangesNothing(judge, entries[i])) return;
     std::vector<CandidatePair>& best = best_of[i];
     for (std::size_t j = i + 1; j < entries.size(); ++j) {
       const EffectInstance& b = entries[j].group.probes[0];
-      if (IsSameName(a, b) || Present(base.hypothesis, b) || ChangesNothing(judge, entries[j]))
+      if (IsSameName(a, b) || base.hypothesis.Holds(b) || ChangesNothing(judge, entries[j]))
         continue;
       CandidatePair p = judge.Pair(entries[i], entries[j]);
       if (std::isfinite(p.score)) best.push_back(std::move(p));

@@ -31,15 +31,6 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,
                               SignatureBank& bank);
 
-/// Least size of every parameter of the bank's effects that these records would show, smallest
-/// share of its usual size first. Effects that `base` holds are left out.
-struct VisibleSize {
-  std::string effect, target, parameter, unit;
-  double size = 0;
-};
-std::vector<VisibleSize> VisibleSizes(const CaseModel& model, const FitResult& base,
-                                      double effective_sample_size, SignatureBank& bank);
-
 /// The pairs of effects out of the bank that would explain most together, best first.
 std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base,
                                        double effective_sample_size, SignatureBank& bank,

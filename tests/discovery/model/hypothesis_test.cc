@@ -58,6 +58,16 @@ EffectInstance Strong(const EffectDescription& d, const std::string& target) {
   return e;
 }
 
+TEST(Hypothesis, HoldsAnEffectByItsNameAndTarget) {
+  Hypothesis h;
+  h.AddEffect(MakeInstance(EffectNamed("sensor-gain"), "A.x"));
+  EffectInstance other = MakeInstance(EffectNamed("sensor-gain"), "A.x");
+  other.Set("gain", 1.2);
+  EXPECT_TRUE(h.Holds(other));
+  EXPECT_FALSE(h.Holds(MakeInstance(EffectNamed("sensor-gain"), "A.y")));
+  EXPECT_FALSE(h.Holds(MakeInstance(EffectNamed("sensor-offset"), "A.x")));
+}
+
 // Every parameter of the catalogue: a coordinate leads back to its value, one unit of it is a ratio
 // of e^0.3 or a step of three tenths of the usual size.
 TEST(Hypothesis, CoordinatesAreRatiosOrSteps) {

@@ -8,6 +8,7 @@
 
 #include "discovery/search/effect_round.h"
 #include "discovery/search/likelihood.h"
+#include "discovery/search/visible_size.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
