@@ -143,6 +143,12 @@ void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen
         Verdict::kOk,
         "**Nothing is missing**: the rig file explains the measurements within their noise. " +
             Evidence(e, unseen));
+  else if (e.remainder.kind == RemainderKind::kNone)
+    report.Verdict(
+        Verdict::kWarn,
+        "**Only rig parameters that are not believed explain the records**, beyond their "
+        "tolerances or other ones from record to record (see the warnings). " +
+            Evidence(e, unseen));
   else
     report.Verdict(Verdict::kWarn,
                    "**Something is missing, and no effect of the catalogue explains it.** " +

@@ -213,6 +213,7 @@ TEST_F(DiscoveryReport, ASetOfTwoNamesIsNoIdentification) {
 TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
   Explanation e = Found();
   e.verdict = ExplanationVerdict::kUnknown;
+  e.remainder.kind = RemainderKind::kOther;
   e.adopted.clear();
   e.unexplained = {"rotor or sensor",
                    "plane B, worst at B.y",
@@ -226,6 +227,16 @@ TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
                  {"Unexplained residual", "Change by the parameter fit", "Recommended next steps"});
   EXPECT_THAT(html, HasSubstr("Something is missing"));
   EXPECT_THAT(html, HasSubstr("120\u00a0Hz"));
+}
+
+TEST_F(DiscoveryReport, ParametersThatAreNotBelievedAreNoMissingEffect) {
+  Explanation e = Found();
+  e.verdict = ExplanationVerdict::kUnknown;
+  e.remainder.kind = RemainderKind::kNone;
+  e.adopted.clear();
+  const std::string html = ExplainHtml(e);
+  EXPECT_THAT(html, HasSubstr("Only rig parameters that are not believed explain the records"));
+  EXPECT_THAT(html, Not(HasSubstr("Something is missing")));
 }
 
 TEST_F(DiscoveryReport, AdoptShowsBeforeAndAfter) {

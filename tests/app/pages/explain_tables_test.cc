@@ -195,6 +195,9 @@ TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
   e.ranking = {Ranked(Gain(1.08, 0.002), 1, 3.5)};
   e.verdict = ExplanationVerdict::kUnknown;
   EXPECT_EQ(WhyNot(e, true),
+            "sensor-gain at A.x is not adopted: the rig's parameters explain the records as well.");
+  e.remainder.kind = RemainderKind::kOther;
+  EXPECT_EQ(WhyNot(e, true),
             "sensor-gain at A.x is not adopted: with it 3.50 times the noise is left on the fitted "
             "and 3.50 on the unseen records, which the noise alone does not make. Its probability "
             "counts only the candidates listed.");
