@@ -32,7 +32,7 @@ const RigParameters& Rig() {
 
 RigParameters RigWith(int detector) {
   RigParameters rig = Rig();
-  rig.detection.kind = detector == kCoupled ? "coupled" : "commissioned";
+  rig.detection.kind = detector == kCoupled ? "coupled" : kCommissionedDetector;
   return rig;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kRowFormat = 2;  // of the rows: raise it when a cell means something else
 
-constexpr std::string_view kCommissioned = "commissioned", kStranger = "not-commissioned";
+constexpr std::string_view kCommissioned = kCommissionedDetector, kStranger = "not-commissioned";
 
 const CoilDetectorKind& CommissionedKind() {
   return *std::ranges::find(CoilDetectorKinds(), kCommissioned, &CoilDetectorKind::name);

@@ -6,10 +6,6 @@
 
 namespace ambrig {
 
-namespace {
-constexpr const char* kOfAnyStator = "commissioned";  // [detection] kind where nothing is said
-}
-
 void CheckWhatStatorsAllow(const RigParameters& rig, const BearingParameters& b,
                            const std::string& redistribution) {
   if (!b.kind->linearise) return;
@@ -18,11 +14,11 @@ void CheckWhatStatorsAllow(const RigParameters& rig, const BearingParameters& b,
         fmt::format("{}: redistribution = \"force-by-force\" with bearing {} of kind "
                     "\"{}\", allowed: auto, matrix",
                     rig.file, b.name, b.kind->name));
-  if (rig.detection.kind != kOfAnyStator)
-    throw InputError(
-        fmt::format("{} = \"{}\" with bearing {} of kind \"{}\", allowed: {} (such a stator is "
-                    "watched by the balance of its linkages)",
-                    rig.detection.where, rig.detection.kind, b.name, b.kind->name, kOfAnyStator));
+  if (rig.detection.kind != kCommissionedDetector)
+    throw InputError(fmt::format(
+        "{} = \"{}\" with bearing {} of kind \"{}\", allowed: {} (such a stator is "
+        "watched by the balance of its linkages)",
+        rig.detection.where, rig.detection.kind, b.name, b.kind->name, kCommissionedDetector));
 }
 
 }  // namespace ambrig

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fdd/learning/commissioning_file.h"
+#include "rig/parameters/detection_parameters.h"
 
 namespace ambrig {
 
@@ -119,7 +120,7 @@ CommissionedBearing BearingOf(const CoilDetectorSetup& s) {
 }  // namespace
 
 CoilDetectorKind Commissioned() {
-  return {"commissioned",
+  return {kCommissionedDetector,
           "-",
           "relative excess of the linkages' slopes over what the healthy machine showed",
           1,

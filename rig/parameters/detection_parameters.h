@@ -8,9 +8,12 @@
 
 namespace ambrig {
 
+/// The detector where a rig file names none: it does no harm to healthy machines that are not their
+/// model, watches stators of every kind, and is the one that a commissioning is for.
+inline constexpr const char* kCommissionedDetector = "commissioned";
+
 struct DetectionParameters {
-  // It does no harm to healthy machines that are not their model.
-  std::string kind = "commissioned";
+  std::string kind = kCommissionedDetector;
   double threshold = 0;       // of the detector's statistic; 0: the catalogue's
   double computing_time = 0;  // [s] from the end of a period to the actions that follow from it
   std::string commissioning;  // file of a commissioned detector, beside the rig file; may be empty

@@ -11,10 +11,6 @@
 
 namespace ambrig {
 
-namespace {
-constexpr const char* kLearntKind = "commissioned";  // the detector that a commissioning is for
-}
-
 MachineIdentity MachineOfFile(const std::string& rig_file) {
   if (!std::filesystem::is_regular_file(rig_file)) return {};
   return IdentityOf(ReadRig(rig_file));
@@ -22,7 +18,7 @@ MachineIdentity MachineOfFile(const std::string& rig_file) {
 
 std::string OtherMachineNote(const RigParameters& rig) {
   const DetectionParameters& d = rig.detection;
-  if (d.kind != kLearntKind || d.commissioning == "none") return "";
+  if (d.kind != kCommissionedDetector || d.commissioning == "none") return "";
   const std::string file =
       d.commissioning.empty() ? CommissioningFileOf(rig.file) : d.commissioning;
   if (!std::filesystem::is_regular_file(file)) return "";
