@@ -229,16 +229,6 @@ TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
   EXPECT_THAT(html, HasSubstr("120\u00a0Hz"));
 }
 
-TEST_F(DiscoveryReport, ParametersThatAreNotBelievedAreNoMissingEffect) {
-  Explanation e = Found();
-  e.verdict = ExplanationVerdict::kUnknown;
-  e.remainder.kind = RemainderKind::kNone;
-  e.adopted.clear();
-  const std::string html = ExplainHtml(e);
-  EXPECT_THAT(html, HasSubstr("Only rig parameters that are not believed explain the records"));
-  EXPECT_THAT(html, Not(HasSubstr("Something is missing")));
-}
-
 TEST_F(DiscoveryReport, AdoptShowsBeforeAndAfter) {
   Case again = *case_;
   again.rig.effects.push_back(SidePull());
