@@ -215,17 +215,6 @@ TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
   EXPECT_EQ(WhyNot(e, true), "");
 }
 
-TEST(DiscoveryParts, ParametersThatAreNotBelievedAreNoMissingEffect) {
-  Explanation e;
-  e.verdict = ExplanationVerdict::kUnknown;
-  const auto page = [&] {
-    return TablesPage([&](HtmlReport& r) { AddExplanationVerdict(r, e, true); });
-  };
-  EXPECT_THAT(page(), HasSubstr("Only rig parameters that are not believed explain the records"));
-  e.remainder.kind = RemainderKind::kOther;
-  EXPECT_THAT(page(), HasSubstr("Something is missing"));
-}
-
 TEST(DiscoveryParts, TheLadderNamesEveryStep) {
   const std::string html = TablesPage([](HtmlReport& r) {
     AddLadder(r, {{"", 9, 8},
