@@ -22,10 +22,10 @@ namespace {
 
 constexpr int kRowFormat = 2;  // of the rows: raise it when a cell means something else
 
-constexpr std::string_view kCommissioned = kCommissionedDetector, kStranger = "not-commissioned";
+constexpr std::string_view kStranger = "not-commissioned";
 
 const CoilDetectorKind& CommissionedKind() {
-  return *std::ranges::find(CoilDetectorKinds(), kCommissioned, &CoilDetectorKind::name);
+  return *std::ranges::find(CoilDetectorKinds(), kCommissionedDetector, &CoilDetectorKind::name);
 }
 
 /// The commissioned detector as it is before it has learnt anything.
@@ -45,7 +45,7 @@ void AddStranger(DetectorStudy* s) {
   const auto learnt = [](const Campaign& c) {
     return std::ranges::any_of(c.plants, &CampaignPlant::commissioned);
   };
-  const auto it = std::ranges::find(s->detectors, kCommissioned, &CoilDetectorKind::name);
+  const auto it = std::ranges::find(s->detectors, kCommissionedDetector, &CoilDetectorKind::name);
   if (it != s->detectors.end() && (learnt(s->healthy) || learnt(s->faulty)))
     s->detectors.insert(it + 1, Stranger());
 }

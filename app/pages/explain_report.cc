@@ -56,7 +56,7 @@ std::string WhyNot(const Explanation& e, bool unseen) {
     return "";
   const FitResult& best = e.ranking.front().fit;
   const std::string name = EffectName(e.ranking.front().effect);
-  if (e.verdict == ExplanationVerdict::kUnknown && e.remainder.kind == RemainderKind::kNone)
+  if (e.ParametersNotBelieved())
     return name + " is not adopted: the rig's parameters explain the records as well.";
   if (e.verdict == ExplanationVerdict::kUnknown)
     return fmt::format(
@@ -143,7 +143,7 @@ void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen
         Verdict::kOk,
         "**Nothing is missing**: the rig file explains the measurements within their noise. " +
             Evidence(e, unseen));
-  else if (e.remainder.kind == RemainderKind::kNone)
+  else if (e.ParametersNotBelieved())
     report.Verdict(
         Verdict::kWarn,
         "**Only rig parameters that are not believed explain the records**, beyond their "

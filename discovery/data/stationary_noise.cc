@@ -50,8 +50,7 @@ bool FollowsPrediction(const std::vector<StretchLines>& error,
 }
 
 /// Whether some line of the octave stands still: the power of noise in it would come and go.
-bool HasLine(const std::vector<StretchLines>& error, const LineBand& octave) {
-  const std::vector<LinePower> powers = PowersOf(error, octave);
+bool HasLine(const std::vector<LinePower>& powers) {
   double all = 0;
   for (const LinePower& line : powers) all += line.mean;
   return std::ranges::any_of(powers, [&](const LinePower& line) {
@@ -78,11 +77,12 @@ std::optional<StationaryNoise> StationaryNoiseOf(const std::vector<DrivenStretch
   StationaryNoise out;
   double most = 0;
   for (const LineBand& octave : octaves) {
-    const DensityRange densities = DensitiesOf(error, octave, IndependentLines(error, octave));
+    const std::vector<LinePower> powers = PowersOf(error, octave);
+    const DensityRange densities = DensitiesOf(error, octave, IndependentLines(powers));
     const double power = static_cast<double>(octave.count()) / lines * densities.three_quarters;
     if (power < kCounts * square) continue;
     if (!densities.Agrees() || FollowsPrediction(error, predicted, octave, unexpected) ||
-        HasLine(error, octave))
+        HasLine(powers))
       return {};
     if (power <= most) continue;
     most = power;

@@ -18,7 +18,7 @@ constexpr double kFreedomOfLine = 1.05;   // of a line, with Hann's window
 constexpr std::size_t kFirstLine = 2;
 
 /// Mean power of these lines in each stretch.
-std::vector<double> LinePowers(const std::vector<StretchLines>& of, const LineBand& band) {
+std::vector<double> StretchPowers(const std::vector<StretchLines>& of, const LineBand& band) {
   std::vector<double> means;
   for (const StretchLines& lines : of) {
     double mean = 0;
@@ -86,18 +86,18 @@ std::vector<LinePower> PowersOf(const std::vector<StretchLines>& of, const LineB
   return out;
 }
 
-double IndependentLines(const std::vector<StretchLines>& of, const LineBand& band) {
+double IndependentLines(const std::vector<LinePower>& powers) {
   double sum = 0, square = 0;
-  for (const LinePower& line : PowersOf(of, band)) {
+  for (const LinePower& line : powers) {
     sum += line.mean;
     square += line.mean * line.mean;
   }
-  return square > 0 ? sum * sum / square : static_cast<double>(band.count());
+  return square > 0 ? sum * sum / square : static_cast<double>(powers.size());
 }
 
 DensityRange DensitiesOf(const std::vector<StretchLines>& of, const LineBand& band,
                          double independent) {
-  const std::vector<double> means = LinePowers(of, band);
+  const std::vector<double> means = StretchPowers(of, band);
   const double freedom = std::max(2.0, kFreedomOfLine * independent);
   return {QuantileOf(means, 0.25) / QuantileOfMeanSquare(freedom, -kOfQuartile),
           QuantileOf(means, 0.75) / QuantileOfMeanSquare(freedom, kOfQuartile)};

@@ -46,8 +46,8 @@ struct LinePower {
 /// Of every line of the band.
 std::vector<LinePower> PowersOf(const std::vector<StretchLines>& of, const LineBand& band);
 
-/// How many lines of equal power vary as the power of this band does: fewer than it has where a
-/// resonance stands out.
-double IndependentLines(const std::vector<StretchLines>& of, const LineBand& band);
+/// How many lines of equal power vary as the power of these does: fewer where a resonance stands
+/// out.
+double IndependentLines(const std::vector<LinePower>& powers);
 
 }  // namespace ambrig

@@ -64,8 +64,7 @@ bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
   if (explained >= kMost) return false;
   const EffectInstance& first = out.adopted[0];
   for (const RankedEffect& r : out.ranking)
-    if (r.effect.name == first.name && r.effect.target == first.target)
-      return named * r.probability * explained < kLeast;
+    if (IsSameName(r.effect, first)) return named * r.probability * explained < kLeast;
   return false;
 }
 
@@ -161,7 +160,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
-  if (out.verdict == ExplanationVerdict::kUnknown && out.remainder.kind == RemainderKind::kNone)
+  if (out.ParametersNotBelieved())
     out.remainder.text =
         "the noise floor is reached only with rig parameters beyond their tolerances, or on whose "
         "values the records do not agree";

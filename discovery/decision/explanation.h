@@ -69,6 +69,12 @@ struct Explanation {
   double effective_sample_size = 0, seconds = 0;  // independent residuals [-], computing [s]
   long runs = 0;                                  // record simulations
 
+  /// Whether the error is unknown for no other reason than that the rig parameters which explain it
+  /// are not believed.
+  bool ParametersNotBelieved() const {
+    return verdict == ExplanationVerdict::kUnknown && remainder.kind == RemainderKind::kNone;
+  }
+
   /// Whether `ambrig refine` of the first effect leaves what its free shape does: it fits without
   /// what was found to differ from record to record.
   bool RefineFollows() const {

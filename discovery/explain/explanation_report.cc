@@ -66,7 +66,7 @@ void ExplanationReport::AddToVerdict(const FitResult& base, const FitResult& now
   constexpr double kReportedShift = 1;  // [sd]
   out.parameter_shifts = ParameterShifts(
       (out.verdict == ExplanationVerdict::kEffect ? now : base).hypothesis, kReportedShift);
-  if (out.verdict == ExplanationVerdict::kUnknown && out.remainder.kind != RemainderKind::kNone) {
+  if (out.verdict == ExplanationVerdict::kUnknown && !out.ParametersNotBelieved()) {
     // The model may just hold the rotor on the rows that were fitted.
     const FitResult all = models_.AtAllRows(now);
     if (all.Stands())

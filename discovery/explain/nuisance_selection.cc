@@ -76,7 +76,11 @@ void NuisanceSelection::UseDeclared(const Hypothesis& h, const std::vector<doubl
 void NuisanceSelection::UseOfRecords(const std::vector<NuisanceKind>& kinds) {
   of_records_ = kinds;
   Apply();
-  models_.ForgetSignatures();
+  // What nuisances explain comes off the signatures; what came off is not known any more.
+  if (kinds.empty())
+    models_.ForgetSignatures();
+  else
+    models_.signatures().TakeOffNuisances(models_.thinned());
 }
 
 void NuisanceSelection::UseOfCoils(const std::vector<NuisanceKind>& kinds, double doubt,
@@ -118,9 +122,7 @@ std::optional<NuisanceSelection::Before> NuisanceSelection::Try(FitResult& now, 
       NuisanceKindsOf(models_.full(), now.hypothesis, all.predicted, false), now, effects_found);
   if (chosen.empty()) return {};
   Before state = {Used(), models_.signatures(), {}};
-  of_records_ = chosen;
-  Apply();
-  models_.signatures().TakeOffNuisances(model);
+  UseOfRecords(chosen);
   const auto give_up = [&]() -> std::optional<Before> {
     UseAgain(state.used);
     models_.signatures() = std::move(state.signatures);

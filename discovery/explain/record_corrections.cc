@@ -12,6 +12,17 @@
 
 namespace ambrig {
 
+namespace {
+
+/// What the answer says of this nuisance of the record; null: nothing.
+NuisanceFound* FoundIn(Explanation& e, const std::string& name, const std::string& record) {
+  const auto found = std::ranges::find_if(
+      e.nuisances, [&](const NuisanceFound& f) { return f.name == name && f.record == record; });
+  return found == e.nuisances.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 void RecordCorrections::Add(const RecordCorrections& found) {
   if (!found.rows_late.empty()) rows_late = found.rows_late;
   inputs_larger.resize(std::max(inputs_larger.size(), found.inputs_larger.size()), 0);
@@ -28,28 +39,23 @@ void ReportCorrections(const Case& c, const RecordCorrections& corrections, Expl
   const std::vector<double>& larger = corrections.inputs_larger;
   for (std::size_t r = 0; r < late.size(); ++r) {
     const CaseRecord& record = c.records[r];
-    bool told = late[r] == 0;
-    for (NuisanceFound& f : e.nuisances)
-      if (f.name == kTimeShift && f.record == record.data_file) {
-        f.value += late[r] / record.data.rate;  // what is left of the clock when its rows are moved
-        told = true;
-      }
-    if (!told)
+    if (late[r] == 0) continue;
+    if (NuisanceFound* shift = FoundIn(e, kTimeShift, record.data_file))
+      shift->value += late[r] / record.data.rate;  // what is left when the rows are moved
+    else
       e.warnings.push_back(fmt::format(
           "the clock of {} is {} row{} {}: its rows are moved", record.data_file, std::abs(late[r]),
           std::abs(late[r]) == 1 ? "" : "s", late[r] > 0 ? "late" : "early"));
   }
   for (std::size_t r = 0; r < larger.size(); ++r) {
-    bool told = larger[r] == 0;
-    for (NuisanceFound& f : e.nuisances)
-      if (f.name == kInputGain && f.record == c.records[r].data_file) {
-        f.value = (1 + larger[r]) * (1 + f.value) - 1;
-        told = true;
-      }
-    if (!told)
+    const std::string& record = c.records[r].data_file;
+    if (larger[r] == 0) continue;
+    if (NuisanceFound* gain = FoundIn(e, kInputGain, record))
+      gain->value = (1 + larger[r]) * (1 + gain->value) - 1;
+    else
       e.warnings.push_back(fmt::format(
           "the commands of {} are {:.2f} % {} than its scenario says: they are simulated so",
-          c.records[r].data_file, 100 * std::abs(larger[r]), larger[r] > 0 ? "larger" : "smaller"));
+          record, 100 * std::abs(larger[r]), larger[r] > 0 ? "larger" : "smaller"));
   }
 }
 

@@ -74,9 +74,8 @@ void Hypothesis::AddEffect(const EffectInstance& effect) {
 }
 
 bool Hypothesis::Holds(const EffectInstance& effect) const {
-  return std::ranges::any_of(rig.effects, [&](const EffectInstance& e) {
-    return e.name == effect.name && e.target == effect.target;
-  });
+  return std::ranges::any_of(rig.effects,
+                             [&](const EffectInstance& e) { return IsSameName(e, effect); });
 }
 
 void Hypothesis::Set(std::size_t parameter, double value) {

@@ -19,6 +19,11 @@ struct FreeParameter {
   bool logarithmic = false;
 };
 
+/// Whether both are the same effect at the same target, whatever its size.
+inline bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
+  return a.name == b.name && a.target == b.target;
+}
+
 /// What is believed: the rig file's parameters and effects with values of the free ones.
 struct Hypothesis {
   RigParameters rig;  // rig.effects holds the effects

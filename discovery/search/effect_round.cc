@@ -194,9 +194,8 @@ class Ranker {
   }
 
   bool Ranked(const EffectInstance& e) const {
-    return std::any_of(ranking_.begin(), ranking_.end(), [&](const RankedEffect& r) {
-      return r.effect.name == e.name && r.effect.target == e.target;
-    });
+    return std::any_of(ranking_.begin(), ranking_.end(),
+                       [&](const RankedEffect& r) { return IsSameName(r.effect, e); });
   }
 
   void FitTheStart(const Candidate& c) {

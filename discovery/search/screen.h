@@ -9,11 +9,6 @@
 
 namespace ambrig {
 
-/// Whether both are the same effect at the same target, whatever its size.
-inline bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
-  return a.name == b.name && a.target == b.target;
-}
-
 struct ScreenOptions {
   double effective_sample_size = 1;
   std::string effect, target;  // only this one, at this target only; empty: all

@@ -238,7 +238,7 @@ Eigen::VectorXd SignatureBank::Sum(const Entry& entry, const Eigen::VectorXd& am
 bool SignatureBank::Holds(const EffectInstance& probe) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
     const EffectInstance& o = e.group.probes[0];
-    return o.name == probe.name && o.target == probe.target && o.values == probe.values;
+    return IsSameName(o, probe) && o.values == probe.values;
   });
 }
 
