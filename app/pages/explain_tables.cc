@@ -21,9 +21,8 @@ std::string OneLine(std::string text) {
 namespace {
 
 bool Adopted(const Explanation& e, const EffectInstance& effect) {
-  return std::ranges::any_of(e.adopted, [&](const EffectInstance& a) {
-    return a.name == effect.name && a.target == effect.target;
-  });
+  return std::ranges::any_of(e.adopted,
+                             [&](const EffectInstance& a) { return IsSameName(a, effect); });
 }
 
 std::string SecondCaption(const Explanation& e) {
