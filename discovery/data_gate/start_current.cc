@@ -12,28 +12,34 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kStartFloors = 5;    // of the first row
-constexpr double kTimeConstants = 5;  // of L/R: e^-5 of it is left
-constexpr double kLeftOfStart = 0.3;  // of the first error, at the most, behind that
+constexpr double kStartFloors = 5;     // of one of the first rows
+constexpr std::size_t kFirstRows = 3;  // the first one may hold a reading from before the start
+constexpr double kTimeConstants = 5;   // of the coil and its regulator: e^-5 of it is left
+constexpr double kLeftOfStart = 0.3;   // of the first error, at the most, behind that
 constexpr std::size_t kRowsOfMean = 5;
 
-/// Of the slowest coil of a bearing [s].
-double SlowestConstant(const BearingParameters& b) {
-  return LargestInductance(b) / CoilResistance(b);
+/// Of the slowest coil of a bearing, L/R, and of its regulator's integral action, kp/ki [s].
+double SlowestConstant(const RigParameters& rig, const BearingParameters& b) {
+  const AmplifierParameters& a = rig.amplifier;
+  return LargestInductance(b) / CoilResistance(b) + (a.ki > 0 ? a.kp / a.ki : 0);
 }
 
-/// The first row that counts and its error; `first` = count: none.
+/// The largest error of the first rows that count; `row` = count: there is none.
 struct StartError {
-  std::size_t first = 0;
+  std::size_t row = 0;
   double error = 0;
 };
 
 StartError StartErrorOf(const CaseModel& model, const std::vector<double>& predicted,
                         const Target& t) {
-  StartError out;
-  while (out.first < t.count && !model.ok()[t.first + out.first]) ++out.first;
-  if (out.first < t.count)
-    out.error = model.measured()[t.first + out.first] - predicted[t.first + out.first];
+  StartError out{t.count, 0};
+  std::size_t seen = 0;
+  for (std::size_t k = 0; k < t.count && seen < kFirstRows; ++k) {
+    if (!model.ok()[t.first + k]) continue;
+    ++seen;
+    const double error = model.measured()[t.first + k] - predicted[t.first + k];
+    if (out.row == t.count || std::abs(error) > std::abs(out.error)) out = {k, error};
+  }
   return out;
 }
 
@@ -64,8 +70,8 @@ std::vector<UnstatedStart> UnstatedStartsOf(const CaseModel& model,
       continue;
     const BearingParameters* b = model.data().rig.Find(id->plane);
     const StartError first = StartErrorOf(model, predicted, t);
-    if (!b || first.first == t.count || std::abs(first.error) <= kStartFloors * t.floor) continue;
-    const double settled = kTimeConstants * SlowestConstant(*b);
+    if (!b || first.row == t.count || std::abs(first.error) <= kStartFloors * t.floor) continue;
+    const double settled = kTimeConstants * SlowestConstant(model.data().rig, *b);
     const auto sample =
         static_cast<std::size_t>(std::max(0.0, std::ceil((settled - r.data.start) * r.data.rate)));
     if (std::abs(MeanErrorFrom(model, predicted, t, sample)) > kLeftOfStart * std::abs(first.error))
@@ -75,7 +81,7 @@ std::vector<UnstatedStart> UnstatedStartsOf(const CaseModel& model,
     if (known && floors <= farthest) continue;
     if (!known) out.emplace_back();
     farthest = floors;
-    const std::size_t row = t.first + first.first;
+    const std::size_t row = t.first + first.row;
     out.back() = {t.record, r.data.channels[t.channel].name, model.measured()[row], predicted[row],
                   settled};
   }

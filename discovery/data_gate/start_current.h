@@ -12,12 +12,13 @@ struct UnstatedStart {
   std::size_t record = 0;
   std::string
       channel;  // the coil current that is farthest from what the scenario commands at first
-  double measured = 0, predicted = 0;  // [A] in the first row that counts
+  double measured = 0, predicted = 0;  // [A] in that row
   double settled = 0;                  // [s] of the record: from there on it is forgotten
 };
 
-/// Records whose first row of some coil current differs by more than 5 floors from the prediction,
-/// while their rows behind five time constants L/R of the coil do so less. None where the scenario
+/// Records of whose first three rows of some coil current one differs by more than 5 floors from the
+/// prediction, while their rows behind five time constants of the coil and its regulator, L/R +
+/// kp/ki, do so less. None where the scenario
 /// states the current ([start] current). `model` holds all rows, floors are set.
 std::vector<UnstatedStart> UnstatedStartsOf(const CaseModel& model,
                                             const std::vector<double>& predicted);

@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/linear_equations.h"
@@ -10,22 +11,13 @@
 #include "discovery/search/fit_problem.h"
 #include "discovery/search/rig_prior.h"
 #include "discovery/search/size_sd.h"
-#include "effects/catalogue.h"
+#include "discovery/search/whole_periods.h"
 
 namespace ambrig {
 
 namespace {
 
 using Eigen::Index;
-
-/// Sd of a value that acts in whole switching periods: of all values between two steps. 0 for
-/// others.
-double SdOfWholePeriods(const CaseModel& model, const RigParameters& rig, const FreeParameter& f) {
-  const EffectInstance& e = rig.effects[static_cast<std::size_t>(f.effect)];
-  const EffectDescription* d = FindEffect(e.name);
-  if (!d || d->whole_periods.empty() || e.table[f.row].name != d->whole_periods) return 0;
-  return 1 / model.data().rig.amplifier.switching_frequency / std::sqrt(12.0);
-}
 
 /// Covariance of the optimum and what a user should know about it.
 void EstimateCovariance(const FitProblem& cost, FitResult& result) {
@@ -47,14 +39,16 @@ void EstimateCovariance(const FitProblem& cost, FitResult& result) {
     result.size_sd[k] *= unit;
     result.sd[k] = unit * std::sqrt(std::max(0.0, covariance(i, i)));
     if (f.effect < 0) continue;
-    if (influence(i) < 1e-6) {
-      result.warnings.push_back(
-          f.path + " has no influence on these records near its value (or acts in discrete steps)");
-      result.sd[k] = SdOfWholePeriods(cost.model(), h.rig, f);
-      result.size_sd[k] = 0;  // not known from here
+    if (const double period = WholePeriodOf(cost.model(), h, f)) {
+      result.sd[k] = period / std::sqrt(12.0);  // of all values between two steps
+      result.size_sd[k] = 0;                    // not known from here
       continue;
     }
-    result.sd[k] = std::max(result.sd[k], SdOfWholePeriods(cost.model(), h.rig, f));
+    if (influence(i) < 1e-6) {
+      result.warnings.push_back(f.path + " has no influence on these records near its value");
+      result.sd[k] = result.size_sd[k] = 0;  // not known from here
+      continue;
+    }
     if (f.value <= f.lo || f.value >= f.hi)
       result.warnings.push_back(fmt::format("{} is at its bound {}", f.path, f.value));
     for (std::size_t m = 0; m < p; ++m) {
@@ -150,6 +144,26 @@ bool EvaluateAtPoint(const CaseModel& model, const RecordSubset* look, FitResult
   return true;
 }
 
+/// Moves every parameter that acts in whole switching periods to the neighbouring period that
+/// lowers the cost most. Returns whether one was moved.
+bool StepByPeriods(const CaseModel& model, const FitProblem& cost, FitResult& result) {
+  bool moved = false;
+  for (std::size_t k = 0; k < result.hypothesis.free.size(); ++k) {
+    const FreeParameter f = result.hypothesis.free[k];
+    const double period = WholePeriodOf(model, result.hypothesis, f);
+    if (period == 0) continue;
+    for (const double by : {-period, period}) {
+      FitResult there = result;
+      there.hypothesis.Set(k, std::clamp(f.value + by, f.lo, f.hi));
+      if (!EvaluateAtPoint(model, &cost.look(), there) || there.ratio_fit >= result.ratio_fit)
+        continue;
+      result = std::move(there);
+      moved = true;
+    }
+  }
+  return moved;
+}
+
 /// Passes of the solver from the hypothesis of the result, which is evaluated on all records at the
 /// end. false: nothing to go on with; the result says so.
 bool Improve(const CaseModel& model, const FitOptions& options, FitProblem& cost,
@@ -174,6 +188,11 @@ bool Improve(const CaseModel& model, const FitOptions& options, FitProblem& cost
     if (!EvaluateAtPoint(model, &cost.look(), result)) {
       Fail(result);
       return false;
+    }
+    if (StepByPeriods(model, cost, result)) {
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] = result.hypothesis.Coordinate(k);
+      cost.Refresh();
+      continue;
     }
     const double gain = cost.MisfitBetween(before, result.ratio_fit) + penalty - result.penalty;
     if (options.least_gain > 0 ? gain < options.least_gain

@@ -7,6 +7,7 @@
 #include "discovery/search/fit_gram.h"
 #include "discovery/search/likelihood.h"
 #include "discovery/search/rig_prior.h"
+#include "discovery/search/whole_periods.h"
 
 namespace ambrig {
 
@@ -48,11 +49,14 @@ FitProblem::FitProblem(const CaseModel& model, const Hypothesis& start, const Fi
       p_(start.free.size()),
       base_at_(start) {
   const bool lends = Lends(options, model, options.lent);
-  for (std::size_t k = 0; k < p_; ++k)
+  for (std::size_t k = 0; k < p_; ++k) {
+    const bool steps = WholePeriodOf(model, start, start.free[k]) > 0;
+    if (steps) stepped_.push_back(k);
     if (start.free[k].effect < 0 || (lends && k < options.lent))
       base_.push_back(k);
-    else
+    else if (!steps)
       (HasFrequency(start, start.free[k]) ? tuned_ : effect_).push_back(k);
+  }
   reuse_ = Lends(options, model, base_.size());
 }
 
@@ -203,7 +207,8 @@ void FitProblem::HoldAtBounds(
 
 Eigen::MatrixXd FitProblem::Joined(const Eigen::MatrixXd& of_rig, const Hypothesis& h,
                                    const RecordSubset* look) const {
-  Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.size()), static_cast<Eigen::Index>(p_));
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.size()),
+                                            static_cast<Eigen::Index>(p_));
   const auto put = [&J](const std::vector<std::size_t>& at, const Eigen::MatrixXd& columns) {
     for (std::size_t k = 0; k < at.size(); ++k)
       J.col(static_cast<Eigen::Index>(at[k])) = columns.col(static_cast<Eigen::Index>(k));
@@ -213,6 +218,7 @@ Eigen::MatrixXd FitProblem::Joined(const Eigen::MatrixXd& of_rig, const Hypothes
     put(effect_, Jacobian(model_, h, effect_, kEffectStep, look, options_.differences));
   if (!tuned_.empty())
     put(tuned_, Jacobian(model_, h, tuned_, kFrequencyStep, look, options_.differences));
+  for (const std::size_t k : stepped_) J.col(static_cast<Eigen::Index>(k)).setZero();
   return J;
 }
 

@@ -79,6 +79,7 @@ class FitProblem {
   std::size_t p_;
   double weight_ = 1;
   std::vector<std::size_t> base_, effect_, tuned_;  // tuned: of effects that have a frequency
+  std::vector<std::size_t> stepped_;                // act in whole switching periods: no slope
   bool reuse_ = false;                              // the columns that another fit lends
   mutable Eigen::MatrixXd base_jacobian_;
   mutable Hypothesis base_at_;  // where it was taken

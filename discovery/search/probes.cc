@@ -143,7 +143,8 @@ ProbePlan PlanOf(const EffectDescription& d, const std::string& target) {
   return plan;
 }
 
-/// An effect that acts in whole switching periods T [s]: the first six.
+/// An effect that acts in whole switching periods T [s]: the first six, by the middle of what acts
+/// as this one.
 std::vector<ProbeGroup> WholePeriods(const EffectDescription& d, const EffectInstance& at,
                                      double T) {
   std::vector<ProbeGroup> groups;
@@ -151,7 +152,7 @@ std::vector<ProbeGroup> WholePeriods(const EffectDescription& d, const EffectIns
     ProbeGroup g;
     g.linear = false;
     g.probes.push_back(at);
-    g.probes[0].Set(d.whole_periods, k * T * (1 - 1e-6));
+    g.probes[0].Set(d.whole_periods, (k - 0.5) * T);
     groups.push_back(g);
   }
   return groups;

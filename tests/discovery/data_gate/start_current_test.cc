@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/discovery/data_gate/gate_case.h"
 
 namespace ambrig {
@@ -41,6 +43,24 @@ TEST(StartCurrent, WhatNothingStatesIsLeftOut) {
   ASSERT_EQ(spans.size(), 1U);
   EXPECT_EQ(spans[0].first, 0U);
   EXPECT_THAT(StartRemarks(c, starts)[0], ::testing::HasSubstr("A.i1 begins at"));
+}
+
+// A logger whose first row holds the settled reading from before the start.
+TEST(StartCurrent, TheFirstRowMayBeOfThePeriodBefore) {
+  Case c = Measured();
+  const std::size_t record = RecordNamed(c, kClampedRecord);
+  const Case settled = MeasuredBy(Hypothesis::Base(c.rig), c);
+  c.records[record].scenario.start_current = {{"A.coil1", 2.5}};
+  c = MeasuredBy(Hypothesis::Base(c.rig), c);
+  c.records[record].scenario.start_current.clear();
+  auto& channels = c.records[record].data.channels;
+  std::ranges::find(channels, "A.i1", &Channel::name)->samples[0] =
+      settled.records[record].data.Find("A.i1")->samples[0];
+  CaseModel model(c);
+  const std::vector<UnstatedStart> starts = StartsOf(model);
+  ASSERT_EQ(starts.size(), 1U);
+  EXPECT_EQ(starts[0].channel, "A.i1");
+  EXPECT_GT(starts[0].settled, 5 * c.rig.amplifier.kp / c.rig.amplifier.ki);
 }
 
 TEST(StartCurrent, ARecordThatBeginsAsCommandedIsWhole) {

@@ -108,7 +108,7 @@ TEST(Probes, WhatIsSwitchedFromAFiniteNullIsTriedAtBothEndsOfWhatShapesIt) {
   }
 }
 
-// A delay acts in whole switching periods: the first six are tried, each just short of its end.
+// A delay acts in whole switching periods: the first six are tried, each by its middle.
 TEST(Probes, ADelayIsTriedInWholePeriods) {
   const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
@@ -116,10 +116,9 @@ TEST(Probes, ADelayIsTriedInWholePeriods) {
   const CaseModel model(c, 12);
   std::set<int> periods;
   for (const ProbeGroup& g : ProbesOf(EffectNamed("loop-delay"), "rig", model, {})) {
-    const double whole = g.probes[0].Value("time") * rig.amplifier.switching_frequency;
-    periods.insert(static_cast<int>(std::lround(whole)));
-    EXPECT_LT(whole, std::round(whole));
-    EXPECT_NEAR(whole, std::round(whole), 1e-4);
+    const double periods_of = g.probes[0].Value("time") * rig.amplifier.switching_frequency;
+    periods.insert(static_cast<int>(std::ceil(periods_of)));
+    EXPECT_NEAR(std::ceil(periods_of) - periods_of, 0.5, 1e-9);
   }
   EXPECT_EQ(periods, std::set<int>({1, 2, 3, 4, 5, 6}));
 }
