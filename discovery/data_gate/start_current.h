@@ -16,8 +16,8 @@ struct UnstatedStart {
   double settled = 0;                  // [s] of the record: from there on it is forgotten
 };
 
-/// Records of whose first three rows of some coil current one differs by more than 5 floors from the
-/// prediction, while their rows behind five time constants of the coil and its regulator, L/R +
+/// Records with a coil current of whose first three rows one differs by more than 5 floors from
+/// the prediction, while the rows behind five time constants of the coil and its regulator, L/R +
 /// kp/ki, do so less. None where the scenario
 /// states the current ([start] current). `model` holds all rows, floors are set.
 std::vector<UnstatedStart> UnstatedStartsOf(const CaseModel& model,

@@ -9,7 +9,7 @@
 namespace ambrig {
 namespace {
 
-EffectInstance Delay(double periods) {
+EffectInstance DelayOfPeriods(double periods) {
   EffectInstance e = MakeInstance(EffectNamed("loop-delay"), "rig");
   e.Set("time", periods / testing::RadialRig().amplifier.switching_frequency);
   return e;
@@ -19,7 +19,7 @@ TEST(WholePeriods, AreThoseOfADelayOnly) {
   const Case c = testing::Measured();
   const CaseModel model(c, 12);
   Hypothesis h = Hypothesis::Base(c.rig);
-  h.AddEffect(Delay(1.5));
+  h.AddEffect(DelayOfPeriods(1.5));
   const double period = 1 / c.rig.amplifier.switching_frequency;
   for (const FreeParameter& f : h.free)
     EXPECT_EQ(WholePeriodOf(model, h, f), f.effect < 0 ? 0 : period) << f.path;
@@ -28,12 +28,12 @@ TEST(WholePeriods, AreThoseOfADelayOnly) {
 // The reading of a delay that is two periods too short or too long: the fit walks to the period of
 // the data, and says what is known of the delay.
 TEST(WholePeriods, AFitWalksFromPeriodToPeriod) {
-  const Case c = testing::Measured({Delay(3)}, 0, "multisine at rest");
+  const Case c = testing::Measured({DelayOfPeriods(3)}, 0, "multisine at rest");
   const CaseModel model(c, 12);
   for (const double start : {0.5, 4.5}) {
     Hypothesis h;
     h.rig = c.rig;
-    h.AddEffect(Delay(start));
+    h.AddEffect(DelayOfPeriods(start));
     FitOptions options;
     options.passes = 5;
     options.effective_sample_size = 300;
