@@ -17,9 +17,9 @@ struct UnstatedStart {
 };
 
 /// Records with a coil current of whose first three rows one differs by more than 5 floors from
-/// the prediction, while the rows behind five time constants of the coil and its regulator, L/R +
-/// kp/ki, do so less. None where the scenario
-/// states the current ([start] current). `model` holds all rows, floors are set.
+/// the prediction, while the rows behind five time constants of the coil (L/R) and its regulator
+/// (kp/ki) do so less. None where the scenario states the current ([start] current). `model` holds
+/// all rows, floors are set.
 std::vector<UnstatedStart> UnstatedStartsOf(const CaseModel& model,
                                             const std::vector<double>& predicted);
 
