@@ -115,7 +115,9 @@ bool ExplanationSearch::TakeForNoise(const FitResult& base) {
   const StationaryRemainder noise =
       StationaryRemainderOf(models_.full(), all.predicted, all.residual);
   if (noise.channels.empty()) return false;
+  const SearchModels::Floors before = models_.floors();
   models_.SetFloors(noise.floors);
+  nuisances_.RenewFloors(before.targets);
   const std::vector<std::string> remarks = RemainderRemarks(noise);
   log_.warnings.insert(log_.warnings.end(), remarks.begin(), remarks.end());
   return true;
@@ -167,12 +169,15 @@ bool ExplanationSearch::RenewFloor(const FitResult& as_filed, FitResult& base, F
     return false;
   progress_(0.86, "noise floor of the model found");
   const SearchModels::Floors before = models_.floors();
+  const NuisanceSelection::State used = nuisances_.Used();
   if (!models_.RaiseFloors(now.hypothesis)) return false;
+  nuisances_.RenewFloors(before.targets);
   const double old = now.ratio_validate;
   const FitResult renewed = models_.At(base.hypothesis);
   // A found model that is all but unstable passes so much noise that nothing would stand out.
   if (std::pow(renewed.ratio_validate, 2) - 1 < 0.25 * (std::pow(base.ratio_validate, 2) - 1)) {
     models_.SetFloors(before);
+    nuisances_.UseAgain(used);
     return false;
   }
   base = renewed;

@@ -83,6 +83,12 @@ void NuisanceSelection::UseOfRecords(const std::vector<NuisanceKind>& kinds) {
     models_.signatures().TakeOffNuisances(models_.thinned());
 }
 
+void NuisanceSelection::RenewFloors(const std::vector<Target>& before) {
+  of_records_ = OverNewFloors(of_records_, models_.full(), before);
+  of_coils_.kinds = OverNewFloors(of_coils_.kinds, models_.thinned(), before);
+  Apply();
+}
+
 void NuisanceSelection::UseOfCoils(const std::vector<NuisanceKind>& kinds, double doubt,
                                    double seen_at) {
   of_coils_.kinds = kinds;

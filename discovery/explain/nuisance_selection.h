@@ -42,6 +42,9 @@ class NuisanceSelection {
   void UseDeclared(const Hypothesis& h, const std::vector<double>& predicted);
   /// These of the records beside the errors of the coils. The signatures are forgotten.
   void UseOfRecords(const std::vector<NuisanceKind>& kinds);
+  /// The same amounts over the floors that the models have now. `before`: their targets until then.
+  /// The signatures stay as they are.
+  void RenewFloors(const std::vector<Target>& before);
   /// These errors of coils beside those of the records, members as in UsedCoilErrors. The
   /// signatures stay as they are.
   void UseOfCoils(const std::vector<NuisanceKind>& kinds, double doubt, double seen_at);

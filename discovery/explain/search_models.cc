@@ -126,10 +126,12 @@ void SearchModels::SetFloors(const std::vector<double>& floors) {
 }
 
 void SearchModels::RescaleSignatures(const Floors& before) {
-  if (thinned_.nuisances.any())
-    ForgetSignatures();  // they were taken off with the old floors
-  else
-    signatures_.Rescale(thinned_, before.targets);
+  if (thinned_.nuisances.in_all()) {
+    ForgetSignatures();  // their rows were weighed with the old floors
+    return;
+  }
+  signatures_.Rescale(thinned_, before.targets);
+  if (thinned_.nuisances.any()) signatures_.TakeOffNuisances(thinned_);
 }
 
 FitOptions SearchModels::Options() const {

@@ -81,7 +81,7 @@ class SearchModels {
   void SetFloors(const Floors& before);
   /// The same of floors alone, one per target.
   void SetFloors(const std::vector<double>& floors);
-  /// The signatures follow floors that were raised from these.
+  /// The signatures follow floors that were raised from these, and the nuisances over them.
   void RescaleSignatures(const Floors& before);
 
   /// A fit of the thinned model. `jacobian`: sensitivities of the rig parameters for its first

@@ -26,6 +26,27 @@ Eigen::MatrixXd Columns(const CaseModel& model, const std::vector<NuisanceKind>&
   return out;
 }
 
+/// The kinds with columns over the rows of `to`, a model of the same case as `from`, whose rows they
+/// have: `rows` makes a target's part of what the column has there.
+template <class Rows>
+std::vector<NuisanceKind> WithColumns(const std::vector<NuisanceKind>& kinds, const CaseModel& from,
+                                      const CaseModel& to, const Rows& rows) {
+  std::vector<NuisanceKind> out;
+  for (const NuisanceKind& kind : kinds) {
+    StretchColumn column(static_cast<Index>(to.size()));
+    for (std::size_t t = 0; t < to.targets().size(); ++t) {
+      const Target& all = from.targets()[t];
+      const Eigen::VectorXd there =
+          kind.column.Segment(static_cast<Index>(all.first), static_cast<Index>(all.count));
+      if (there.isZero(0)) continue;
+      column.Append(static_cast<Index>(to.targets()[t].first), rows(t, there));
+    }
+    out.push_back(kind);
+    out.back().column = std::move(column);
+  }
+  return out;
+}
+
 }  // namespace
 
 void Nuisances::Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight,
@@ -176,25 +197,22 @@ std::vector<NuisanceFound> Nuisances::Amounts(const CaseModel& model,
   return out;
 }
 
+std::vector<NuisanceKind> OverNewFloors(const std::vector<NuisanceKind>& kinds,
+                                        const CaseModel& model, const std::vector<Target>& before) {
+  return WithColumns(kinds, model, model, [&](std::size_t t, const Eigen::VectorXd& there) {
+    return Eigen::VectorXd(before[t].floor / model.targets()[t].floor * there);
+  });
+}
+
 std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const CaseModel& full,
                                   const CaseModel& thin) {
-  std::vector<NuisanceKind> out;
-  for (const NuisanceKind& kind : kinds) {
-    StretchColumn column(static_cast<Index>(thin.size()));
-    for (std::size_t t = 0; t < thin.targets().size(); ++t) {
-      const Target &few = thin.targets()[t], &all = full.targets()[t];
-      const Eigen::VectorXd there =
-          kind.column.Segment(static_cast<Index>(all.first), static_cast<Index>(all.count));
-      if (there.isZero(0)) continue;
-      Eigen::VectorXd left(static_cast<Index>(few.count));
-      for (std::size_t k = 0; k < few.count; ++k)
-        left(static_cast<Index>(k)) = there(static_cast<Index>(thin.sample(few.first + k)));
-      column.Append(static_cast<Index>(few.first), std::move(left));
-    }
-    out.push_back(kind);
-    out.back().column = std::move(column);
-  }
-  return out;
+  return WithColumns(kinds, full, thin, [&](std::size_t t, const Eigen::VectorXd& there) {
+    const Target& few = thin.targets()[t];
+    Eigen::VectorXd left(static_cast<Index>(few.count));
+    for (std::size_t k = 0; k < few.count; ++k)
+      left(static_cast<Index>(k)) = there(static_cast<Index>(thin.sample(few.first + k)));
+    return left;
+  });
 }
 
 }  // namespace ambrig

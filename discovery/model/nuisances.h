@@ -11,6 +11,7 @@
 
 #include "discovery/model/nuisance_group.h"
 #include "discovery/model/stretch_column.h"
+#include "discovery/model/target.h"
 
 namespace ambrig {
 
@@ -53,6 +54,8 @@ class Nuisances {
   }
   const std::vector<NuisanceKind>& kinds() const { return kinds_; }
   bool any() const { return !records_.empty() || !in_all_.kinds.empty(); }
+  /// Whether some amounts are the same in all records.
+  bool in_all() const { return !in_all_.kinds.empty(); }
   /// Whether some amounts differ from record to record.
   bool differ() const { return !records_.empty(); }
   /// How many amounts there are that differ from record to record.
@@ -113,6 +116,11 @@ class Nuisances {
   std::vector<NuisanceKind> kinds_;
   double weight_ = 1, weight_in_all_ = 1;
 };
+
+/// The kinds over the floors that the model has now. `before`: its targets while the columns were
+/// taken over their floors; of a model of the same case.
+std::vector<NuisanceKind> OverNewFloors(const std::vector<NuisanceKind>& kinds,
+                                        const CaseModel& model, const std::vector<Target>& before);
 
 /// The kinds seen by a model with fewer rows of the same case.
 std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const CaseModel& full,

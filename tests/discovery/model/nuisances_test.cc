@@ -66,6 +66,30 @@ TEST_F(NuisanceTest, AmountsAreThoseOfTheRidgeFitRecordByRecord) {
   EXPECT_EQ(found[2].record, linear_.data.records[2].data_file);
 }
 
+// The floor of A.x rises to 4 µm: an sd of 2 µm is half of it, and an offset of 3 µm the same
+// amount as before where the prior holds nothing back.
+TEST_F(NuisanceTest, AmountsStayTheSameOverNewFloors) {
+  const double w = 1e6;
+  const std::vector<NuisanceKind> kinds = {Zero()};
+  const std::vector<Target> before = model().targets();
+  Nuisances nuisances;
+  nuisances.Use(model(), kinds, w);
+  const auto found = nuisances.Amounts(model(), NumbersOf(RowsOfAx(model(), 0, 3)));
+  double of_first = 0;
+  for (Target& t : linear_.model.targets())
+    if (t.channel == 0) {
+      of_first = t.floor;
+      t.floor *= 4;
+    }
+  ASSERT_GT(of_first, 0);
+  const std::vector<NuisanceKind> renewed = OverNewFloors(kinds, model(), before);
+  EXPECT_NEAR(renewed[0].column.Segment(0, 1)(0), 0.5, 1e-12);
+  nuisances.Use(model(), renewed, w);
+  const auto again = nuisances.Amounts(model(), NumbersOf(RowsOfAx(model(), 0, 3.0 / 4)));
+  ASSERT_EQ(found.size(), again.size());
+  EXPECT_NEAR(again[0].value, found[0].value, 1e-6 * found[0].value);
+}
+
 // What is left of an offset is its share that the prior holds back; other channels stay as they
 // were.
 TEST_F(NuisanceTest, EliminationLeavesWhatThePriorHoldsBack) {
