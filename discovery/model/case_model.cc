@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "discovery/model/in_parallel.h"
+#include "discovery/model/record_order.h"
 #include "discovery/model/record_rows.h"
 #include "discovery/model/record_traits.h"
 #include "rig/rig_assembly.h"
@@ -62,6 +63,7 @@ CaseModel::CaseModel(const Case& c, const std::vector<std::size_t>& thin)
     touches_.push_back(
         !points && record.imposed == Imposed::kNothing && Touches(c.rig, record) ? 1 : 0);
   }
+  order_ = LongestFirst(c, touches_);
   sound_ = ok_;
   horizon_.assign(c.records.size(), kInfinity);
 }
@@ -259,8 +261,7 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
 }
 
 std::optional<std::vector<double>> CaseModel::Predict(const Hypothesis& h) const {
-  auto all = PredictAll({h});
-  return std::move(all[0]);
+  return std::move(PredictAll({h})[0]);
 }
 
 std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
@@ -276,9 +277,9 @@ std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
   for (auto& o : out) o = look ? look->rest : std::vector<double>(measured_.size(), 0.0);
   std::vector<char> fine(all.size() * records, 1);
   InParallel(all.size() * records, [&](std::size_t task) {
-    const std::size_t k = task / records, r = task % records;
+    const std::size_t k = task % all.size(), r = order_[task / all.size()];
     if (look && !look->records[r]) return;
-    fine[task] = FillRecord(rigs[k], r, false, 1, *out[k]) ? 1 : 0;
+    fine[k * records + r] = FillRecord(rigs[k], r, false, 1, *out[k]) ? 1 : 0;
   });
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t r = 0; r < records; ++r)
@@ -290,11 +291,10 @@ std::optional<std::vector<double>> CaseModel::PredictNoisy(const Hypothesis& h,
                                                            std::uint64_t seed) const {
   std::vector<double> out(measured_.size(), 0.0);
   std::atomic<bool> fine{true};
-  InParallel(case_.records.size(), [&](std::size_t r) {
-    if (!FillRecord(h.rig, r, true, seed + 977 * r, out)) fine = false;
+  InParallel(order_.size(), [&](std::size_t k) {
+    if (!FillRecord(h.rig, order_[k], true, seed + 977 * order_[k], out)) fine = false;
   });
-  if (!fine) return std::nullopt;
-  return out;
+  return fine ? std::optional(std::move(out)) : std::nullopt;
 }
 
 }  // namespace ambrig

@@ -106,7 +106,8 @@ class CaseModel {
   const Case& case_;
   std::vector<double> horizon_;  // [s] of each record's scenario that is simulated; infinity: all
   std::vector<char> touches_;    // of each record: the measured rotor touches something
-  std::vector<char> sound_;      // rows as the data-quality pass left them
+  std::vector<std::size_t> order_;  // in which the records are simulated
+  std::vector<char> sound_;         // rows as the data-quality pass left them
   std::vector<Target> targets_;
   std::vector<double> measured_;
   std::vector<char> ok_;

@@ -42,18 +42,19 @@ EffectParameter OrderAmplitude(const TurningOrder& o, const char* part, double s
   return p;
 }
 
-/// Sums over all orders of (c + i s) exp(+-i order theta): real part along x, imaginary part along
-/// y.
+/// Sums over all orders of (c + i s) exp(i order theta) + (cb + i sb) exp(-i order theta): real part
+/// along x, imaginary part along y. One sine and one cosine an order: they are most of the work.
 std::pair<std::string, std::string> TurningFormulas() {
   std::string x, y;
-  for (const TurningOrder& o : TurningOrders()) {
-    const std::string c = OrderAmplitude(o, "c", 0).name, s = OrderAmplitude(o, "s", 0).name;
-    const char *plus = o.forward ? "+" : "-", *minus = o.forward ? "-" : "+";
-    const std::string turned = o.order == 1 ? "theta" : fmt::format("{}*theta", o.order);
-    x += fmt::format("{0}{1}*cos({3}) {4} {2}*sin({3})", x.empty() ? "" : " + ", c, s, turned,
-                     minus);
-    y += fmt::format("{0}{1}*sin({3}) + {2}*cos({3})", y.empty() ? "" : fmt::format(" {} ", plus),
-                     c, s, turned);
+  for (int k = 1; k <= kTurningOrders; ++k) {
+    const auto name = [&](const char* part, bool forward) {
+      return OrderAmplitude({k, forward}, part, 0).name;
+    };
+    const std::string c = name("c", true), s = name("s", true), cb = name("c", false),
+                      sb = name("s", false), turned = k == 1 ? "theta" : fmt::format("{}*theta", k),
+                      plus = k == 1 ? "" : " + ";
+    x += fmt::format("{}({} + {})*cos({}) + ({} - {})*sin({})", plus, c, cb, turned, sb, s, turned);
+    y += fmt::format("{}({} - {})*sin({}) + ({} + {})*cos({})", plus, c, cb, turned, s, sb, turned);
   }
   return {x, y};
 }
