@@ -42,8 +42,9 @@ EffectParameter OrderAmplitude(const TurningOrder& o, const char* part, double s
   return p;
 }
 
-/// Sums over all orders of (c + i s) exp(i order theta) + (cb + i sb) exp(-i order theta): real part
-/// along x, imaginary part along y. One sine and one cosine an order: they are most of the work.
+/// Sums over all orders of (c + i s) exp(i order theta) + (cb + i sb) exp(-i order theta), whose
+/// real part acts along x and whose imaginary part along y. One sine and one cosine an order: they
+/// are most of the work.
 std::pair<std::string, std::string> TurningFormulas() {
   std::string x, y;
   for (int k = 1; k <= kTurningOrders; ++k) {
