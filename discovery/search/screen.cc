@@ -44,8 +44,8 @@ bool SeeksFrequency(const EffectDescription& d) {
 }
 
 /// Whether a coarse screen tries it.
-bool IsCoarse(const EffectInstance& e) {
-  return !NamesCoil(e.target) && !SeeksFrequency(EffectNamed(e.name));
+bool IsCoarse(const EffectDescription& d, const std::string& target) {
+  return !NamesCoil(target) && !SeeksFrequency(d);
 }
 
 /// The coil of a bearing that has no other: the bearing as a target says the same.
@@ -100,9 +100,9 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     if (IsResonance(d) != (kind == ScreenedKind::kResonances)) continue;
     const bool skipped = SeeksFrequency(d) ? !options.frequencies : again && !coils;
     if (options.effect.empty() && (CannotShow(d, model) || skipped)) continue;
-    if (options.coarse && (coils || SeeksFrequency(d))) continue;
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;
+      if (options.coarse && !IsCoarse(d, target)) continue;
       if (options.effect.empty() && d.tone && peaks.ShowsNoTone(target)) continue;
       const bool coil = NamesCoil(target);
       if (coil != coils ||
@@ -167,8 +167,9 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base,
   std::vector<Candidate> all, out;
   for (std::size_t k = 0; k < bank.entries().size(); ++k) {
     const SignatureBank::Entry& entry = bank.entries()[k];
-    if (base.hypothesis.Holds(entry.group.probes[0])) continue;
-    if (options.coarse && !IsCoarse(entry.group.probes[0])) continue;
+    const EffectInstance& probe = entry.group.probes[0];
+    if (base.hypothesis.Holds(probe)) continue;
+    if (options.coarse && !IsCoarse(EffectNamed(probe.name), probe.target)) continue;
     if (ChangesNothing(judge, entry)) continue;
     Candidate c = judge.Single(entry);
     c.entry = k;

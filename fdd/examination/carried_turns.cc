@@ -177,8 +177,10 @@ void CarriedTurns::Tell() {
     low = std::min(low, kFewest + kShareStep * s);
     high = kFewest + kShareStep * s;
   }
+  constexpr double kUntried = 0.5 * kShareStep;  // up to the middle between two shares of the grid
+  const double least = low - kUntried, most = std::min(1.0, high + kUntried);
   // Turns that were taken for bypassed are in a loop, of which the least loss is counted on.
-  const double share = share_ < low && !told_ ? high : std::clamp(share_, low, high);
+  const double share = share_ < least && !told_ ? high : std::clamp(share_, least, most);
   if (std::abs(share - share_) < kLeastMove) return;
   share_ = share;
   moved_ = told_ = true;

@@ -219,6 +219,20 @@ TEST(CampaignCommand, AnIdleCoilWhoseCommandIsNearTheLimitIsProbedAgain) {
   EXPECT_NE(o.text.find("false alarms           0"), std::string::npos) << o.text;
 }
 
+// Rows of single_coils.toml in which the size of a bypassed half was once told again, by a grid of
+// sizes coarser than what was known: the shaft was pushed 8 um aside.
+TEST(CampaignRows, TheSizeOfAHalfShortStaysWhereTheBalanceDoesNotTellBetter) {
+  const CampaignFolder f;
+  for (const char* row : {"326", "484", "519"}) {
+    const Outcome o = f.Ambrig("run --from-campaign " + std::string(AMBRIG_SOURCE_DIR) +
+                               "/scenarios/campaigns/single_coils.toml --out out --row " + row);
+    ASSERT_EQ(o.exit, 0) << o.text;
+    const std::string name = std::string("out/single_coils_row_") + row + ".json";
+    const auto json = nlohmann::json::parse(f.Read(name));
+    EXPECT_LT(json.at("metrics").at("max_orbit").at("A").get<double>(), 4e-6) << row;
+  }
+}
+
 TEST(CampaignFiles, AllOfTheRepositoryCanBeRead) {
   for (const char* name : {"single_coils", "survival", "survival_small", "false_alarms"})
     EXPECT_GT(
