@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "core/math/normal_distribution.h"
 #include "discovery/decision/decide.h"
 #include "effects/catalogue.h"
 
@@ -22,10 +24,17 @@ constexpr double kLeavesDetails = 0.9, kMayLeaveDetails = 0.75;  // of the error
 // Name probability: half at a share of 0.45; an explanation down to the floor is a name.
 constexpr double kHalfShare = 0.45, kSlope = 12, kAtFloor = 1.15;
 
-/// Whether a size of the effect differs from nothing by so many of its sd.
-bool DiffersFromNothing(const EffectInstance& effect, double sds) {
+/// How far the sizes of an effect are from nothing.
+struct SizeDistances {
+  std::vector<double> told;  // [sd], of sizes whose sd the records tell
+  // of the others the largest [of the smallest usual size]: one that has no slope (whole periods of
+  // delay), or is too small to show (a dead duty below every duty)
+  std::optional<double> untold;
+};
+
+SizeDistances DistancesFromNothing(const EffectInstance& effect) {
   const EffectDescription* d = FindEffect(effect.name);
-  bool told = false, untold = false;  // sizes whose sd the records tell, and others
+  SizeDistances out;
   for (std::size_t k = 0; k < effect.table.size(); ++k) {
     const EffectParameter& p = effect.table[k];
     if (!p.has_null || (d && !d->Switches(p))) continue;
@@ -35,13 +44,27 @@ bool DiffersFromNothing(const EffectInstance& effect, double sds) {
     const double distance =
         std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
     if (distance == 0) continue;
-    // A size whose slope the records do not tell may be one that has none (whole periods of delay),
-    // or one too small to show (a dead duty below every duty): that is none of the usual size,
-    // beside sizes that are told.
-    if (sd > 0 ? distance >= sds * sd : distance >= p.typical_lo) return true;
-    (sd > 0 ? told : untold) = true;
+    if (sd > 0)
+      out.told.push_back(distance / sd);
+    else
+      out.untold = std::max(out.untold.value_or(0), distance / p.typical_lo);
   }
-  return untold && !told;
+  return out;
+}
+
+/// Whether one of the sizes is so many sd from nothing. Where none of a known sd is, one whose slope
+/// the records do not tell counts if it is at least of the smallest usual size, or alone.
+bool DifferBy(const SizeDistances& sizes, double sds) {
+  if (std::ranges::any_of(sizes.told, [&](double distance) { return distance >= sds; }))
+    return true;
+  return sizes.untold && (*sizes.untold >= 1 || sizes.told.empty());
+}
+
+/// The distance [sd] that the largest of `count` independent normal deviates exceeds as rarely as a
+/// single one exceeds `sds` (Sidak's correction).
+double OfLargest(double sds, std::size_t count) {
+  const double within = 2 * NormalProbability(sds) - 1;
+  return NormalQuantile(0.5 + 0.5 * std::pow(within, 1.0 / static_cast<double>(count)));
 }
 
 /// The effect with the sd that its sizes have while the shape of its law is held.
@@ -134,14 +157,15 @@ std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double na
   return set;
 }
 
-bool HasSize(const EffectInstance& effect) { return DiffersFromNothing(effect, kSeen); }
+bool HasSize(const EffectInstance& effect) { return DifferBy(DistancesFromNothing(effect), kSeen); }
 
 bool HasSize(const FitResult& fit, std::size_t effect) {
   return HasSize(WithSdOfSizes(fit, effect, false));
 }
 
 bool HasSizeUnderDoubt(const FitResult& fit, std::size_t effect) {
-  return DiffersFromNothing(WithSdOfSizes(fit, effect, true), kSeenInDoubt);
+  const SizeDistances sizes = DistancesFromNothing(WithSdOfSizes(fit, effect, true));
+  return DifferBy(sizes, OfLargest(kSeenInDoubt, std::max<std::size_t>(1, sizes.told.size())));
 }
 
 bool HasImpossibleSign(const EffectInstance& effect) {

@@ -98,6 +98,30 @@ TEST(HasSize, ASizeThatGoesWithATimeConstantIsJudgedWithThatHeld) {
   EXPECT_FALSE(HasSize(fit, 0));
 }
 
+// Beside a law that may be another one, a single size needs two sd. The largest of the fourteen of a
+// run-out exceeds that by chance every second time.
+TEST(HasSize, TheLargestOfManySizesIsFartherFromNothing) {
+  for (const auto& [distance, seen] : {std::pair{2.5, false}, {3.1, true}}) {
+    EffectInstance e = MakeInstance(EffectNamed("sensor-runout"), "A");
+    e.Set("c2", distance * 1e-7);
+    for (const char* size : {"s2", "c4", "s4"}) e.Set(size, 1e-7);
+    FitResult fit;
+    fit.hypothesis.rig.effects.clear();
+    fit.hypothesis.AddEffect(e);
+    fit.sd.assign(fit.hypothesis.free.size(), 1e-7);
+    fit.size_sd = fit.sd;
+    for (FreeParameter& p : fit.hypothesis.free)  // every size differs from nothing by something
+      if (p.value == 0) fit.hypothesis.Set(&p - fit.hypothesis.free.data(), 1e-9);
+    EXPECT_EQ(HasSizeUnderDoubt(fit, 0), seen) << distance;
+  }
+  EffectInstance one = Gain(1.025, 0.01);
+  FitResult fit;
+  fit.hypothesis.rig.effects.clear();
+  fit.hypothesis.AddEffect(one);
+  fit.sd = fit.size_sd = {0.01};
+  EXPECT_TRUE(HasSizeUnderDoubt(fit, 0));
+}
+
 TEST(CredibleSet, HoldsUnknownBesideTheNames) {
   std::vector<RankedEffect> ranking(2);
   ranking[0].effect = Gain(1.1, 0.01);

@@ -63,6 +63,18 @@ TEST(ShareWhereItActs, UnseenRecordsMayContradict) {
                                   kPlainGain, false));
 }
 
+// Two fitted records of a shaft and one unseen one: a run-out that took what a coupling's law leaves
+// in the first ones made an error in the third, elsewhere than in its own channels.
+TEST(ShareWhereItActs, WhatMakesUnseenRecordsWorseIsNoEffect) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  FitResult before = WithErrors(c, {3, 4, 1, 4}), after = WithErrors(c, {1, 4, 1, 4});
+  before.ratio_validate = 1.03;
+  after.ratio_validate = 1.06;
+  EXPECT_TRUE(ExplainsItsChannels(c.model, before, after, kPlainGain, false));
+  after.ratio_validate = 1.21;
+  EXPECT_FALSE(ExplainsItsChannels(c.model, before, after, kPlainGain, false));
+}
+
 TEST(ShareWhereItActs, LittleErrorOrLittleEvidenceIsNotEnough) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult after = WithErrors(c, {1, 4, 1, 4});
