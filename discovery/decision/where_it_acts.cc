@@ -15,7 +15,7 @@ struct Demand {
   double explained, unseen;  // of the error there
   double gain;               // of the score
 };
-constexpr double kWorse =
+constexpr double kUnseenWorse =
     1.05;  // of the ratio on unseen records: what an effect there does not make
 constexpr Demand kNearlyAll = {1.3, 0.8, 0.6, 40}, kAll = {1.1, 0.9, 0.85, 90};
 
@@ -24,7 +24,7 @@ constexpr Demand kNearlyAll = {1.3, 0.8, 0.6, 40}, kAll = {1.1, 0.9, 0.85, 90};
 bool ExplainsItsChannels(const CaseModel& model, const FitResult& before, const FitResult& after,
                          double score_gain, bool first) {
   if (!after.converged || !Believable(after) ||
-      after.ratio_validate > kWorse * std::max(1.0, before.ratio_validate))
+      after.ratio_validate > kUnseenWorse * std::max(1.0, before.ratio_validate))
     return false;
   const LocalShare share = ShareWhereItActs(model, before.residual, after.residual);
   const auto meets = [&](const Demand& d) {

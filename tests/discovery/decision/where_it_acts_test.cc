@@ -63,8 +63,8 @@ TEST(ShareWhereItActs, UnseenRecordsMayContradict) {
                                   kPlainGain, false));
 }
 
-// Two fitted records of a shaft and one unseen one: a run-out that took what a coupling's law leaves
-// in the first ones made an error in the third, elsewhere than in its own channels.
+// A run-out that takes what a coupling's law leaves in the fitted records makes an error in the
+// unseen one, elsewhere than in its own channels.
 TEST(ShareWhereItActs, WhatMakesUnseenRecordsWorseIsNoEffect) {
   const LinearCase c(kThreeRecords, 1, 0);
   FitResult before = WithErrors(c, {3, 4, 1, 4}), after = WithErrors(c, {1, 4, 1, 4});
