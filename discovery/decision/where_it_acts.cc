@@ -15,8 +15,7 @@ struct Demand {
   double explained, unseen;  // of the error there
   double gain;               // of the score
 };
-constexpr double kUnseenWorse =
-    1.05;  // of the ratio on unseen records: what an effect there does not make
+constexpr double kUnseenWorse = 1.05;  // of the ratio on unseen records: no effect makes that
 constexpr Demand kNearlyAll = {1.3, 0.8, 0.6, 40}, kAll = {1.1, 0.9, 0.85, 90};
 
 }  // namespace

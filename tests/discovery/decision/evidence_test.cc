@@ -98,8 +98,8 @@ TEST(HasSize, ASizeThatGoesWithATimeConstantIsJudgedWithThatHeld) {
   EXPECT_FALSE(HasSize(fit, 0));
 }
 
-// Beside a law that may be another one, a single size needs two sd. The largest of the fourteen of a
-// run-out exceeds that by chance every second time.
+// Beside a law that may be another one, a single size needs two sd. The largest of the fourteen of
+// a run-out exceeds that by chance every second time.
 TEST(HasSize, TheLargestOfManySizesIsFartherFromNothing) {
   for (const auto& [distance, seen] : {std::pair{2.5, false}, {3.1, true}}) {
     EffectInstance e = MakeInstance(EffectNamed("sensor-runout"), "A");
