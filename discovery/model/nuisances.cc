@@ -26,8 +26,8 @@ Eigen::MatrixXd Columns(const CaseModel& model, const std::vector<NuisanceKind>&
   return out;
 }
 
-/// The kinds of `from` as kinds of `to`, a model of the same case: `rows` makes the rows of a target
-/// out of those that the column has there.
+/// The kinds of `from` as kinds of `to`, a model of the same case. `rows` makes the rows of a
+/// target out of those that the column has there.
 template <class Rows>
 std::vector<NuisanceKind> WithColumns(const std::vector<NuisanceKind>& kinds, const CaseModel& from,
                                       const CaseModel& to, const Rows& rows) {
