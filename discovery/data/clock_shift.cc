@@ -27,15 +27,19 @@ void MoveBack(std::vector<T>& values, int late, T nothing) {
 
 long MostRowsOff(double rate) { return std::max(kMostRowsOff, std::lround(kMostClockOff * rate)); }
 
-Case WithClocks(const Case& c, const std::vector<int>& rows_late) {
+Case WithClocks(const Case& c, const std::vector<double>& late) {
+  constexpr double kWhole = 1e-6;  // of a row: rounding
   Case out = c;
-  for (std::size_t r = 0; r < out.records.size() && r < rows_late.size(); ++r) {
+  for (std::size_t r = 0; r < out.records.size() && r < late.size(); ++r) {
     CaseRecord& record = out.records[r];
-    if (rows_late[r] == 0) continue;
+    if (late[r] == 0) continue;
+    // No row shall lie before the record's start.
+    const double exact = late[r] * record.data.rate, rows = std::ceil(exact - kWhole);
+    if (rows - exact > kWhole) record.data.start += (rows - exact) / record.data.rate;
     for (Channel& channel : record.data.channels)
-      MoveBack(channel.samples, rows_late[r], std::numeric_limits<double>::quiet_NaN());
+      MoveBack(channel.samples, static_cast<int>(rows), std::numeric_limits<double>::quiet_NaN());
     for (ChannelQuality& quality : record.quality)
-      MoveBack(quality.ok, rows_late[r], decltype(quality.ok)::value_type(0));
+      MoveBack(quality.ok, static_cast<int>(rows), decltype(quality.ok)::value_type(0));
   }
   return out;
 }

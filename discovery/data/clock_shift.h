@@ -1,5 +1,5 @@
 #pragma once
-/// Records whose clock was found whole rows off.
+/// Records whose clock was found off.
 #include <vector>
 
 #include "discovery/case/case.h"
@@ -13,9 +13,9 @@ inline constexpr double kMostClockOff = 5e-4;
 /// The same in rows at this rate [Hz].
 long MostRowsOff(double rate);
 
-/// The case with every record's rows moved back by `rows_late` (one number for each record;
-/// negative: it is early). Rows for which no measured one is left are missing (NaN) and do not
-/// count.
-Case WithClocks(const Case& c, const std::vector<int>& rows_late);
+/// The case with every record's clock set back by `late` [s], one number for each record (negative:
+/// it is early). Its rows are moved by whole ones, and what is left of a row becomes the start of
+/// the record. Rows for which no measured one is left are missing (NaN) and do not count.
+Case WithClocks(const Case& c, const std::vector<double>& late);
 
 }  // namespace ambrig

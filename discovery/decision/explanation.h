@@ -53,6 +53,7 @@ struct Explanation {
   std::vector<DataFault> data;
   NoiseModel noise;
   std::vector<NuisanceFound> nuisances;
+  bool clocks_set_right = false;              // of some records, before the last search
   std::vector<VisibleSize> hidden;            // how large each effect could be without being seen
   std::vector<std::string> parameter_shifts;  // "bearings.A.gap +1.2 sd"
   // [-] rms over the floor, validation or fitted records: rig file, rig parameters fitted, all that

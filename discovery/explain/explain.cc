@@ -26,7 +26,7 @@ Explanation SearchCorrected(const Case& c, const ExplainOptions& options) {
     e = search.Run();
     const RecordCorrections& found = search.corrections();
     again = found.any();
-    if (!found.rows_late.empty()) now.clocks = false;
+    if (!found.clocks_late.empty()) now.clocks = false;
     if (!found.inputs_larger.empty()) --now.inputs;
     all.Add(found);
   }

@@ -213,7 +213,7 @@ bool ExplanationSearch::FindWhatDiffers(FitResult& base, FitResult& now) {
     base = models_.FitFrom(base.hypothesis);
   selection_.AdoptMore(now);
   if (plain || adopted_.size() > effects) {
-    if (!plain && FindLateRows(now)) return true;
+    if (!plain && FindLateClocks(now)) return true;
     SettleBesideNuisances(base, now, effects > 0);
     return false;
   }
@@ -242,10 +242,10 @@ void ExplanationSearch::Polish(FitResult& now) {
   log_.LastEndsWith(now);
 }
 
-bool ExplanationSearch::FindLateRows(const FitResult& base) {
+bool ExplanationSearch::FindLateClocks(const FitResult& base) {
   if (!options_.clocks || !models_.full().nuisances.differ()) return false;
-  if (auto rows = LateRows(models_.data(), AmountsOfNuisances(models_.thinned(), base.predicted)))
-    corrections_.rows_late = std::move(*rows);
+  if (auto late = LateClocks(models_.data(), AmountsOfNuisances(models_.thinned(), base.predicted)))
+    corrections_.clocks_late = std::move(*late);
   return corrections_.any();
 }
 

@@ -51,8 +51,8 @@ class ExplanationSearch {
   /// A last fit with fresh sensitivities of everything.
   void Polish(FitResult& now);
   /// Whether records have to be corrected beside the nuisances found.
-  bool FindCorrections(const FitResult& base) { return FindLateRows(base) || FindInputs(base); }
-  bool FindLateRows(const FitResult& base);
+  bool FindCorrections(const FitResult& base) { return FindLateClocks(base) || FindInputs(base); }
+  bool FindLateClocks(const FitResult& base);
   bool FindInputs(const FitResult& base);
   /// Loads and commands of one record that acted otherwise than stated, seen beside the fitted
   /// parameters; whether there are any.

@@ -21,31 +21,54 @@ NuisanceFound* FoundIn(Explanation& e, const std::string& name, const std::strin
   return found == e.nuisances.end() ? nullptr : &*found;
 }
 
+/// Shift of each record's clock [s]; 0 of one that is larger than MostRowsOff allows.
+std::vector<double> ShiftsOfClocks(const Case& c, const std::vector<NuisanceFound>& found) {
+  std::vector<double> shift(c.records.size(), 0);
+  for (const NuisanceFound& f : found) {
+    if (f.name != kTimeShift) continue;
+    for (std::size_t r = 0; r < shift.size(); ++r) {
+      const double rate = c.records[r].data.rate;
+      if (c.records[r].data_file == f.record &&
+          std::abs(std::lround(f.value * rate)) <= MostRowsOff(rate))
+        shift[r] = f.value;
+    }
+  }
+  return shift;
+}
+
+/// "2 rows" of a record, or "0.13 ms" where it is no whole number of them.
+std::string InRows(double seconds, double rate) {
+  const double rows = std::round(seconds * rate);
+  if (std::abs(seconds * rate - rows) > 1e-6) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{} row{}", rows, rows == 1 ? "" : "s");
+}
+
 }  // namespace
 
 void RecordCorrections::Add(const RecordCorrections& found) {
-  if (!found.rows_late.empty()) rows_late = found.rows_late;
+  if (!found.clocks_late.empty()) clocks_late = found.clocks_late;
   inputs_larger.resize(std::max(inputs_larger.size(), found.inputs_larger.size()), 0);
   for (std::size_t r = 0; r < found.inputs_larger.size(); ++r)
     inputs_larger[r] = (1 + inputs_larger[r]) * (1 + found.inputs_larger[r]) - 1;
 }
 
 Case Corrected(const Case& c, const RecordCorrections& corrections) {
-  return WithInputs(WithClocks(c, corrections.rows_late), corrections.inputs_larger);
+  return WithInputs(WithClocks(c, corrections.clocks_late), corrections.inputs_larger);
 }
 
 void ReportCorrections(const Case& c, const RecordCorrections& corrections, Explanation& e) {
-  const std::vector<int>& late = corrections.rows_late;
+  const std::vector<double>& late = corrections.clocks_late;
   const std::vector<double>& larger = corrections.inputs_larger;
+  e.clocks_set_right = !late.empty();
   for (std::size_t r = 0; r < late.size(); ++r) {
     const CaseRecord& record = c.records[r];
     if (late[r] == 0) continue;
     if (NuisanceFound* shift = FoundIn(e, kTimeShift, record.data_file))
-      shift->value += late[r] / record.data.rate;  // what is left when the rows are moved
+      shift->value += late[r];  // what is left when the rows are moved
     else
-      e.warnings.push_back(fmt::format(
-          "the clock of {} is {} row{} {}: its rows are moved", record.data_file, std::abs(late[r]),
-          std::abs(late[r]) == 1 ? "" : "s", late[r] > 0 ? "late" : "early"));
+      e.warnings.push_back(
+          fmt::format("the clock of {} is {} {}: its rows are moved", record.data_file,
+                      InRows(std::abs(late[r]), record.data.rate), late[r] > 0 ? "late" : "early"));
   }
   for (std::size_t r = 0; r < larger.size(); ++r) {
     const std::string& record = c.records[r].data_file;
@@ -59,22 +82,22 @@ void ReportCorrections(const Case& c, const RecordCorrections& corrections, Expl
   }
 }
 
-std::optional<std::vector<int>> LateRows(const Case& c, const std::vector<NuisanceFound>& found) {
-  std::vector<int> rows(c.records.size(), 0);
-  bool some = false, all = true;
-  for (const NuisanceFound& f : found) {
-    if (f.name != kTimeShift) continue;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const CaseRecord& record = c.records[r];
-      if (record.data_file != f.record) continue;
-      const long late = std::lround(f.value * record.data.rate);
-      rows[r] = std::abs(late) <= MostRowsOff(record.data.rate) ? static_cast<int>(late) : 0;
-      some = some || rows[r] != 0;
-      all = all && rows[r] == rows[0];
-    }
+std::vector<double> ClocksOf(const Case& c, const std::vector<NuisanceFound>& found) {
+  std::vector<double> late = ShiftsOfClocks(c, found);
+  for (std::size_t r = 0; r < late.size(); ++r) {
+    const double unit = 1 / std::max(c.records[r].data.rate, c.rig.amplifier.switching_frequency);
+    late[r] = unit * std::round(late[r] / unit);
   }
-  if (!some || all) return {};
-  return rows;
+  return late;
+}
+
+std::optional<std::vector<double>> LateClocks(const Case& c,
+                                              const std::vector<NuisanceFound>& found) {
+  const std::vector<double> shift = ShiftsOfClocks(c, found);
+  const auto rows = [&](std::size_t r) { return std::lround(shift[r] * c.records[r].data.rate); };
+  for (std::size_t r = 1; r < shift.size(); ++r)
+    if (rows(r) != rows(0)) return ClocksOf(c, found);
+  return {};
 }
 
 // Pulses that an amplifier's voltage limits, or that move the instants at which its limiter lets

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "discovery/case/test_records.h"
+#include "discovery/data/clock_shift.h"
+#include "discovery/explain/record_corrections.h"
 #include "discovery/model/coil_errors.h"
 #include "discovery/model/residual.h"
 #include "discovery/search/likelihood.h"
@@ -18,6 +20,7 @@ void UseFoundKinds(const Hypothesis& nominal, const NoiseFloor& floor, const Exp
   std::vector<NuisanceKind> kinds =
       NuisanceKindsOf(model, nominal, floor.clean, model.data().nuisances.any());
   std::erase_if(kinds, [&](const NuisanceKind& kind) {
+    if (e.clocks_set_right && kind.name == kTimeShift) return false;
     return std::ranges::none_of(e.nuisances, [&](const NuisanceFound& found) {
       return !found.record.empty() && found.name == kind.name;
     });
@@ -32,6 +35,34 @@ double TestErrorOf(const CaseModel& model, const Hypothesis& h) {
   return predicted ? Ratio(model, Residual(model, *predicted), Which::kAll) : kInfinity;
 }
 
+/// Puts the errors of the records `test` into the closure, and what is wrong with them into the
+/// warnings. Where clocks of other records were off, these may be, too: they are set right first.
+void TellErrors(const Case& test, const ExplainOptions& options, bool clocks, Explanation& e) {
+  CaseModel model(test);
+  model.stop = options.stop;
+  model.noise_model = e.noise;
+  Hypothesis before = e.base, after = e.final_fit.hypothesis;
+  AddCoilErrors(e.nuisances, before.rig);
+  AddCoilErrors(e.nuisances, after.rig);
+  const Hypothesis nominal = Hypothesis::Base(test.rig);
+  const std::vector<std::string> limits = model.LimitToHeld(nominal);
+  RequireCountedRows(model);
+  const NoiseFloor floor = FindFloor(model, nominal);
+  model.LeaveOut(floor.unpredictable);
+  UseFoundKinds(nominal, floor, e, model);
+  if (const auto predicted = clocks ? model.Predict(after) : std::nullopt) {
+    const std::vector<double> late = ClocksOf(test, AmountsOfNuisances(model, *predicted));
+    if (std::ranges::any_of(late, [](double seconds) { return seconds != 0; }))
+      return TellErrors(WithClocks(test, late), options, false, e);
+  }
+  e.warnings.insert(e.warnings.end(), limits.begin(), limits.end());
+  for (const DataFault& fault : InspectData(model, floor.clean, nominal))
+    e.warnings.push_back("record of the test: " + FaultText(fault));
+  model.branches = RowsIn(model, FindBranches(model, nominal));
+  e.closure.test_before = TestErrorOf(model, before);
+  e.closure.test_after = TestErrorOf(model, after);
+}
+
 }  // namespace
 
 void AddTestFigures(const Case& c, const ExplainOptions& options, Explanation& e) {
@@ -40,24 +71,8 @@ void AddTestFigures(const Case& c, const ExplainOptions& options, Explanation& e
   e.closure.test_before = e.closure.test_after = std::nan("");
   if (!e.data.empty() || !e.final_fit.Stands()) return;  // nothing was fitted
   if (options.progress) options.progress(0.99, "the records of the test");
-  CaseModel model(*test);
-  model.stop = options.stop;
-  model.noise_model = e.noise;
-  Hypothesis before = e.base, after = e.final_fit.hypothesis;
-  AddCoilErrors(e.nuisances, before.rig);
-  AddCoilErrors(e.nuisances, after.rig);
   try {
-    const Hypothesis nominal = Hypothesis::Base(test->rig);
-    for (const std::string& line : model.LimitToHeld(nominal)) e.warnings.push_back(line);
-    RequireCountedRows(model);
-    const NoiseFloor floor = FindFloor(model, nominal);
-    model.LeaveOut(floor.unpredictable);
-    for (const DataFault& fault : InspectData(model, floor.clean, nominal))
-      e.warnings.push_back("record of the test: " + FaultText(fault));
-    model.branches = RowsIn(model, FindBranches(model, nominal));
-    UseFoundKinds(nominal, floor, e, model);
-    e.closure.test_before = TestErrorOf(model, before);
-    e.closure.test_after = TestErrorOf(model, after);
+    TellErrors(*test, options, e.clocks_set_right, e);
   } catch (const InputError& error) {
     e.warnings.push_back(std::string("no figures of the test: ") + error.what());
   }

@@ -147,7 +147,7 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   // Every coil as drawn, but in another unit of this type, which differs as the rig file states.
   options.coil_spread = h.rig.amplifier.unit != case_.rig.amplifier.unit;
   options.commands = plans_[record].get();
-  options.record_rate = RecordRateFor(h.rig, r.data.rate);
+  options.record_rate = SimulationRateFor(h.rig, r.data);
   options.recorded_channels = channels;
   options.recorded_rows = rows;
   options.watch = false;
@@ -248,7 +248,7 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
   Hypothesis h;
   h.rig = rig;
   const Record& data = case_.records[record].data;
-  const SimulatedRows rows(data, RecordRateFor(rig, data.rate), SamplesOf(record));
+  const SimulatedRows rows(data, SimulationRateFor(rig, data), SamplesOf(record));
   const auto simulated = SimulatedChannels(h, record, noise, seed, &rows.needed());
   if (!simulated) return false;
   for (const Target& t : targets_) {

@@ -1,8 +1,17 @@
 #include "discovery/model/record_rows.h"
 
+#include <cmath>
+
 #include "core/base/errors.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
+
+double SimulationRateFor(const RigParameters& rig, const Record& data) {
+  const double rate = RecordRateFor(rig, data.rate), begin = data.start * rate;
+  if (std::abs(begin - std::round(begin)) < 1e-5) return rate;
+  return std::max(rate, RecordRateFor(rig, rig.amplifier.switching_frequency));
+}
 
 SimulatedRows::SimulatedRows(const Record& data, double rate, std::span<const std::size_t> rows) {
   const auto place_of =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/record/record.h"
+#include "rig/parameters/rig_parameters.h"
 
 namespace ambrig {
 
@@ -32,6 +33,10 @@ inline double AtRow(const std::vector<double>& y, double rate, const Record& dat
                     std::size_t row) {
   return Between(y, PlaceOfRow(rate, data, row));
 }
+
+/// Rate [Hz] of a simulation that is compared with `data`: the next one that the engine has. A
+/// record that begins between two rows of that needs one a switching period.
+double SimulationRateFor(const RigParameters& rig, const Record& data);
 
 /// The rows of a simulation that AtRow reads for some rows of a measured record, so that the
 /// simulation records no others (simulation/sampled/run_record.h).

@@ -1,5 +1,4 @@
-// Records whose clock is whole rows off: their rows are moved back, the verdict is that of the
-// right clock.
+// Records whose clock is off: their rows are moved back.
 #include "discovery/data/clock_shift.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +22,7 @@ Case OfFourRows() {
 }
 
 TEST(ClockShift, RowsComeBackAndTheEdgeIsMissing) {
-  const Case c = WithClocks(OfFourRows(), {1, -2, 0});
+  const Case c = WithClocks(OfFourRows(), {1e-3, -2e-3, 0});
   EXPECT_THAT(c.records[0].data.channels[0].samples, ElementsAre(2, 3, 4, IsNan()));
   EXPECT_THAT(c.records[0].quality[0].ok, ElementsAre(0, 1, 1, 0));
   EXPECT_THAT(c.records[1].data.channels[0].samples, ElementsAre(IsNan(), IsNan(), 1, 2));
@@ -31,8 +30,19 @@ TEST(ClockShift, RowsComeBackAndTheEdgeIsMissing) {
   EXPECT_THAT(c.records[2].data.channels[0].samples, ElementsAre(1, 2, 3, 4));
 }
 
+// 1.25 rows late: two rows go, and the first of the rest was measured 0.75 of a row later.
+TEST(ClockShift, APartOfARowIsALaterStart) {
+  const Case c = WithClocks(OfFourRows(), {1.25e-3, -1.25e-3, 0.5e-3});
+  EXPECT_THAT(c.records[0].data.channels[0].samples, ElementsAre(3, 4, IsNan(), IsNan()));
+  EXPECT_NEAR(c.records[0].data.start, 0.75e-3, 1e-15);
+  EXPECT_THAT(c.records[1].data.channels[0].samples, ElementsAre(IsNan(), 1, 2, 3));
+  EXPECT_NEAR(c.records[1].data.start, 0.25e-3, 1e-15);
+  EXPECT_THAT(c.records[2].data.channels[0].samples, ElementsAre(2, 3, 4, IsNan()));
+  EXPECT_NEAR(c.records[2].data.start, 0.5e-3, 1e-15);
+}
+
 TEST(ClockShift, MoreRowsThanThereAreLeaveNothing) {
-  const Case c = WithClocks(OfFourRows(), {9, -9, 0});
+  const Case c = WithClocks(OfFourRows(), {9e-3, -9e-3, 0});
   EXPECT_THAT(c.records[0].quality[0].ok, ElementsAre(0, 0, 0, 0));
   EXPECT_THAT(c.records[1].quality[0].ok, ElementsAre(0, 0, 0, 0));
 }

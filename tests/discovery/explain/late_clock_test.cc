@@ -14,7 +14,8 @@ TEST(LateClock, OfOneRecordIsSetRight) {
   const Case healthy = ExaminedRecords(
       kReferenceFile,
       {"steps of reference and load at rest", "multisine at rest", "clamped, current ramps"});
-  const Case c = WithClocks(healthy, {-1, 0, 0});  // every row shows what was one row before
+  // every row shows what was one row before
+  const Case c = WithClocks(healthy, {-1 / healthy.records[0].data.rate, 0, 0});
   const Explanation e = Explain(c, ShortSearch());
   EXPECT_THAT(e.warnings, Contains(HasSubstr("is 1 row late")));
   EXPECT_TRUE(e.adopted.empty());
