@@ -26,8 +26,8 @@ Case Corrected(const Case& c, const RecordCorrections& corrections);
 void ReportCorrections(const Case& c, const RecordCorrections& corrections, Explanation& e);
 
 /// Seconds by which each record is late, from the shifts of clocks among `found`, in whole rows or
-/// switching periods, whichever are shorter: then all its rows are instants that the simulation has.
-/// 0 of a larger shift than MostRowsOff allows.
+/// switching periods, whichever are shorter: then all its rows are instants that the simulation
+/// has. 0 of a larger shift than MostRowsOff allows.
 std::vector<double> ClocksOf(const Case& c, const std::vector<NuisanceFound>& found);
 
 /// The same where the search has to start again for it: nothing where no clock is half a row off
