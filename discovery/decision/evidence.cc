@@ -52,8 +52,8 @@ SizeDistances DistancesFromNothing(const EffectInstance& effect) {
   return out;
 }
 
-/// Whether one of the sizes is so many sd from nothing. Where none of a known sd is, one whose slope
-/// the records do not tell counts if it is at least of the smallest usual size, or alone.
+/// Whether one of the sizes is so many sd from nothing. Where none of a known sd is, one whose
+/// slope the records do not tell counts if it is at least of the smallest usual size, or alone.
 bool DifferBy(const SizeDistances& sizes, double sds) {
   if (std::ranges::any_of(sizes.told, [&](double distance) { return distance >= sds; }))
     return true;
