@@ -49,6 +49,7 @@ void TellErrors(const Case& test, const ExplainOptions& options, bool clocks, Ex
   RequireCountedRows(model);
   const NoiseFloor floor = FindFloor(model, nominal);
   model.LeaveOut(floor.unpredictable);
+  const std::vector<DataFault> faults = InspectData(model, floor.clean, nominal);
   UseFoundKinds(nominal, floor, e, model);
   if (const auto predicted = clocks ? model.Predict(after) : std::nullopt) {
     const std::vector<double> late = ClocksOf(test, AmountsOfNuisances(model, *predicted));
@@ -56,7 +57,7 @@ void TellErrors(const Case& test, const ExplainOptions& options, bool clocks, Ex
       return TellErrors(WithClocks(test, late), options, false, e);
   }
   e.warnings.insert(e.warnings.end(), limits.begin(), limits.end());
-  for (const DataFault& fault : InspectData(model, floor.clean, nominal))
+  for (const DataFault& fault : faults)
     e.warnings.push_back("record of the test: " + FaultText(fault));
   model.branches = RowsIn(model, FindBranches(model, nominal));
   e.closure.test_before = TestErrorOf(model, before);

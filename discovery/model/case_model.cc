@@ -216,9 +216,10 @@ bool CaseModel::SimulateOrFind(const RigParameters& rig, std::size_t record, boo
                                std::uint64_t seed, std::vector<double>& out) const {
   if (!store) return SimulateRecord(rig, record, noise, seed, out);
   const auto [first, end] = RowsOf(record);
-  RunKey key{rig, record, noise, seed, end - first};
-  if (horizon_[record] < kInfinity) key.horizon = horizon_[record];
-  key.inputs = &case_.records[record].scenario.excitations;
+  const double horizon = horizon_[record] < kInfinity ? horizon_[record] : 0;
+  const CaseRecord& r = case_.records[record];
+  const RunKey key{rig,         record, noise, seed, end - first, horizon, &r.scenario.excitations,
+                   r.data.start};
   if (const std::optional<bool> known = store->Find(key, out.data() + first)) return *known;
   const bool fine = SimulateRecord(rig, record, noise, seed, out);
   store->Keep(key, fine, out.data() + first);
@@ -245,8 +246,7 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
                                std::uint64_t seed, std::vector<double>& out) const {
   if (horizon_[record] == 0) return true;  // left out
   if (predictors_[record]) return PredictPoints(rig, record, out);
-  Hypothesis h;
-  h.rig = rig;
+  const Hypothesis h{rig, {}};
   const Record& data = case_.records[record].data;
   const SimulatedRows rows(data, SimulationRateFor(rig, data), SamplesOf(record));
   const auto simulated = SimulatedChannels(h, record, noise, seed, &rows.needed());

@@ -31,6 +31,7 @@ std::string TextOf(const RunKey& key) {
   AddBytes(bytes, key.seed);
   AddBytes(bytes, key.rows);
   AddBytes(bytes, key.horizon);
+  AddBytes(bytes, key.start);
   if (key.inputs)
     for (const Excitation& e : *key.inputs) AddBytes(bytes, e.amplitude);
   const RigParameters& rig = key.rig;

@@ -24,6 +24,7 @@ struct RunKey {
   double horizon = 0;    // [s] up to which it was simulated; 0: to its end
   // the record's, whose sizes a search may set right; none: as the case has them
   const std::vector<Excitation>* inputs = nullptr;
+  double start = 0;  // [s] of its first row, which a search may set right, too
 };
 
 class RunStore {

@@ -102,8 +102,8 @@ TEST_F(RunStoreTest, AnotherHypothesisIsAnotherEntry) {
   EXPECT_EQ(stored.runs, 4);
 }
 
-// A search may set the size of an input right and go on with the same store.
-TEST_F(RunStoreTest, AnotherSizeOfTheInputIsAnotherEntry) {
+// A search may set the size of an input or a clock right and go on with the same store.
+TEST_F(RunStoreTest, AnotherSizeOfTheInputOrClockIsAnotherEntry) {
   const Case c = Read();
   RunStore store(Store(), c);
   std::vector<Excitation> inputs(1);
@@ -115,6 +115,9 @@ TEST_F(RunStoreTest, AnotherSizeOfTheInputIsAnotherEntry) {
   EXPECT_TRUE(store.Find(key, found).has_value());
   inputs[0].amplitude = 2.02;
   EXPECT_FALSE(store.Find(key, found).has_value());
+  inputs[0].amplitude = 2;
+  const RunKey later{c.rig, 0, false, 0, 2, 0, &inputs, 2e-5};  // a clock that was set right
+  EXPECT_FALSE(store.Find(later, found).has_value());
 }
 
 TEST_F(RunStoreTest, AnEntryThatWasCutOffIsDoneAgain) {
