@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/math/normal_distribution.h"
 #include "discovery/decision/decide.h"
@@ -27,9 +26,9 @@ constexpr double kHalfShare = 0.45, kSlope = 12, kAtFloor = 1.15;
 /// How far the sizes of an effect are from nothing.
 struct SizeDistances {
   std::vector<double> told;  // [sd], of sizes whose sd the records tell
-  // of the others the largest [of the smallest usual size]: one that has no slope (whole periods of
-  // delay), or is too small to show (a dead duty below every duty)
-  std::optional<double> untold;
+  // Whether there are others, which have no slope (whole periods of delay) or are too small to show
+  // (a dead duty below every duty), and one of at least the smallest usual size.
+  bool untold = false, untold_usual = false;
 };
 
 SizeDistances DistancesFromNothing(const EffectInstance& effect) {
@@ -44,10 +43,12 @@ SizeDistances DistancesFromNothing(const EffectInstance& effect) {
     const double distance =
         std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
     if (distance == 0) continue;
-    if (sd > 0)
+    if (sd > 0) {
       out.told.push_back(distance / sd);
-    else
-      out.untold = std::max(out.untold.value_or(0), distance / p.typical_lo);
+    } else {
+      out.untold = true;
+      out.untold_usual = out.untold_usual || distance >= p.typical_lo;
+    }
   }
   return out;
 }
@@ -57,7 +58,7 @@ SizeDistances DistancesFromNothing(const EffectInstance& effect) {
 bool DifferBy(const SizeDistances& sizes, double sds) {
   if (std::ranges::any_of(sizes.told, [&](double distance) { return distance >= sds; }))
     return true;
-  return sizes.untold && (*sizes.untold >= 1 || sizes.told.empty());
+  return sizes.untold_usual || (sizes.untold && sizes.told.empty());
 }
 
 /// The distance [sd] that the largest of `count` independent normal deviates exceeds as rarely as a

@@ -20,7 +20,7 @@ struct ExplainOptions {
   RunStore* store = nullptr;  // simulations of an earlier, interrupted call
   // with the stored table (discovery/calibration/calibration.h), where enough cases stand behind it
   bool calibrate = true;
-  bool clocks = true;  // records that are whole rows late are moved first
+  bool clocks = true;  // clocks of records that are off are set right first
   int inputs = 2;      // times that the records' inputs are simulated at the sizes found
 };
 

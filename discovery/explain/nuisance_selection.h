@@ -40,7 +40,8 @@ class NuisanceSelection {
 
   /// Those that the case declares, where it does. `predicted` of `h`, all rows.
   void UseDeclared(const Hypothesis& h, const std::vector<double>& predicted);
-  /// These of the records beside the errors of the coils. The signatures are forgotten.
+  /// These of the records beside the errors of the coils. They come off the signatures; without any
+  /// the signatures are forgotten.
   void UseOfRecords(const std::vector<NuisanceKind>& kinds);
   /// The same amounts over the floors that the models have now. `before`: their targets until then.
   /// The signatures stay as they are.

@@ -35,33 +35,52 @@ double TestErrorOf(const CaseModel& model, const Hypothesis& h) {
   return predicted ? Ratio(model, Residual(model, *predicted), Which::kAll) : kInfinity;
 }
 
-/// Puts the errors of the records `test` into the closure, and what is wrong with them into the
-/// warnings. Where clocks of other records were off, these may be, too: they are set right first.
-void TellErrors(const Case& test, const ExplainOptions& options, bool clocks, Explanation& e) {
-  CaseModel model(test);
+/// What was found, with the errors of single coils.
+Hypothesis WithFoundCoils(Hypothesis h, const Explanation& e) {
+  AddCoilErrors(e.nuisances, h.rig);
+  return h;
+}
+
+/// Sets the floors of the model by the noise that the search used. Rows that no model holds or
+/// predicts are left out; a line for each such record goes to `limits`. @throws InputError where no
+/// row is left
+NoiseFloor PrepareTest(const Hypothesis& nominal, const ExplainOptions& options,
+                       const Explanation& e, CaseModel& model, std::vector<std::string>& limits) {
   model.stop = options.stop;
   model.noise_model = e.noise;
-  Hypothesis before = e.base, after = e.final_fit.hypothesis;
-  AddCoilErrors(e.nuisances, before.rig);
-  AddCoilErrors(e.nuisances, after.rig);
-  const Hypothesis nominal = Hypothesis::Base(test.rig);
-  const std::vector<std::string> limits = model.LimitToHeld(nominal);
+  for (const std::string& line : model.LimitToHeld(nominal)) limits.push_back(line);
   RequireCountedRows(model);
-  const NoiseFloor floor = FindFloor(model, nominal);
+  NoiseFloor floor = FindFloor(model, nominal);
   model.LeaveOut(floor.unpredictable);
-  const std::vector<DataFault> faults = InspectData(model, floor.clean, nominal);
-  UseFoundKinds(nominal, floor, e, model);
-  if (const auto predicted = clocks ? model.Predict(after) : std::nullopt) {
-    const std::vector<double> late = ClocksOf(test, AmountsOfNuisances(model, *predicted));
-    if (std::ranges::any_of(late, [](double seconds) { return seconds != 0; }))
-      return TellErrors(WithClocks(test, late), options, false, e);
+  return floor;
+}
+
+/// The records of the test with their clocks set right, as far as what was found tells them.
+Case WithOwnClocks(const Case& test, const ExplainOptions& options, const Explanation& e) {
+  CaseModel model(test);
+  const Hypothesis nominal = Hypothesis::Base(test.rig);
+  std::vector<std::string> limits;
+  try {
+    UseFoundKinds(nominal, PrepareTest(nominal, options, e, model, limits), e, model);
+  } catch (const InputError&) {
+    return test;  // whoever compares these records says why they cannot be
   }
-  e.warnings.insert(e.warnings.end(), limits.begin(), limits.end());
-  for (const DataFault& fault : faults)
+  const auto predicted = model.Predict(WithFoundCoils(e.final_fit.hypothesis, e));
+  return predicted ? WithClocks(test, ClocksOf(test, AmountsOfNuisances(model, *predicted))) : test;
+}
+
+/// Puts the errors of the records `test` into the closure, and what is wrong with them into the
+/// warnings.
+void TellErrors(const Case& test, const ExplainOptions& options, Explanation& e) {
+  CaseModel model(test);
+  const Hypothesis nominal = Hypothesis::Base(test.rig);
+  const NoiseFloor floor = PrepareTest(nominal, options, e, model, e.warnings);
+  for (const DataFault& fault : InspectData(model, floor.clean, nominal))
     e.warnings.push_back("record of the test: " + FaultText(fault));
   model.branches = RowsIn(model, FindBranches(model, nominal));
-  e.closure.test_before = TestErrorOf(model, before);
-  e.closure.test_after = TestErrorOf(model, after);
+  UseFoundKinds(nominal, floor, e, model);
+  e.closure.test_before = TestErrorOf(model, WithFoundCoils(e.base, e));
+  e.closure.test_after = TestErrorOf(model, WithFoundCoils(e.final_fit.hypothesis, e));
 }
 
 }  // namespace
@@ -73,7 +92,8 @@ void AddTestFigures(const Case& c, const ExplainOptions& options, Explanation& e
   if (!e.data.empty() || !e.final_fit.Stands()) return;  // nothing was fitted
   if (options.progress) options.progress(0.99, "the records of the test");
   try {
-    TellErrors(*test, options, e.clocks_set_right, e);
+    // Where clocks of other records were off, those of the test may be, too.
+    TellErrors(e.clocks_set_right ? WithOwnClocks(*test, options, e) : *test, options, e);
   } catch (const InputError& error) {
     e.warnings.push_back(std::string("no figures of the test: ") + error.what());
   }

@@ -207,8 +207,7 @@ void FitProblem::HoldAtBounds(
 
 Eigen::MatrixXd FitProblem::Joined(const Eigen::MatrixXd& of_rig, const Hypothesis& h,
                                    const RecordSubset* look) const {
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.size()),
-                                            static_cast<Eigen::Index>(p_));
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.size()), static_cast<Eigen::Index>(p_));
   const auto put = [&J](const std::vector<std::size_t>& at, const Eigen::MatrixXd& columns) {
     for (std::size_t k = 0; k < at.size(); ++k)
       J.col(static_cast<Eigen::Index>(at[k])) = columns.col(static_cast<Eigen::Index>(k));

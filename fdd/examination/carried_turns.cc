@@ -12,6 +12,7 @@ namespace {
 constexpr long long kBetweenMarks = 128, kFewestSinceMark = 64;  // periods
 constexpr double kNode[3] = {1, 0.7, 0.4};                       // shares of the circuits that run
 constexpr double kFewest = 0.35, kShareStep = 0.05;              // of the turns
+constexpr double kUntried = 0.5 * kShareStep;  // to the middle between two shares of the grid
 constexpr double kLag[] = {0, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3, 32e-3};  // [s]
 constexpr long long kFirstTold = 16, kTellEvery = 8;                        // periods
 constexpr double kLongest = 60e-3;  // [s] afterwards the error of the bridge counts more
@@ -177,7 +178,6 @@ void CarriedTurns::Tell() {
     low = std::min(low, kFewest + kShareStep * s);
     high = kFewest + kShareStep * s;
   }
-  constexpr double kUntried = 0.5 * kShareStep;  // up to the middle between two shares of the grid
   const double least = low - kUntried, most = std::min(1.0, high + kUntried);
   // Turns that were taken for bypassed are in a loop, of which the least loss is counted on.
   const double share = share_ < least && !told_ ? high : std::clamp(share_, least, most);
