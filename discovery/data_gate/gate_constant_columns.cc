@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/record/channels.h"
 #include "discovery/data_gate/gate_columns.h"
@@ -32,6 +33,32 @@ bool IsDeadBus(const CaseModel& model, const CaseRecord& r, std::size_t channel)
          r.data.rows() > 1 && std::ranges::all_of(c.samples, [](double v) { return v == 0; });
 }
 
+/// Whether the column shows noise: it takes some values at least.
+bool ShowsNoise(const std::vector<double>& y) {
+  constexpr std::size_t kValues = 8;
+  std::set<double> seen;
+  for (const double v : y) {
+    if (std::isfinite(v)) seen.insert(v);
+    if (seen.size() >= kValues) return true;
+  }
+  return false;
+}
+
+/// The reading of a held shaft is its place and the noise of its sensor. At one value beside
+/// readings that show noise, and elsewhere than expected, its converter stood at its limit or its
+/// logger still.
+bool IsStuckReading(const CaseRecord& r, std::size_t channel, const GateColumn& c) {
+  constexpr double kElsewhere = 3;  // floors
+  const Channel& reading = r.data.channels[channel];
+  if (r.scenario.start != StartState::kClamped || !IsOfKind(reading.name, ChannelKind::kReading) ||
+      c.match.error < kElsewhere ||
+      !std::ranges::all_of(reading.samples, [&](double v) { return v == reading.samples.front(); }))
+    return false;
+  return std::ranges::any_of(r.data.channels, [](const Channel& other) {
+    return IsOfKind(other.name, ChannelKind::kReading) && ShowsNoise(other.samples);
+  });
+}
+
 }  // namespace
 
 void CheckConstantColumns(const CaseModel& model, std::size_t record,
@@ -40,15 +67,17 @@ void CheckConstantColumns(const CaseModel& model, std::size_t record,
   for (std::size_t k = 0; k < r.quality.size(); ++k) {
     const ChannelQuality& q = r.quality[k];
     const std::vector<double>& y = r.data.channels[k].samples;
+    const auto c = std::ranges::find(columns, q.channel, &GateColumn::name);
     if (!q.use && q.verdict.starts_with("empty"))
       TellUseless(r, q.channel, "lost", kEmpty, out);
     else if (!q.use && q.verdict.starts_with("stuck") && r.scenario.start != StartState::kClamped)
       TellUseless(r, q.channel, y.front() == 0 ? "lost" : "freeze", kWholeColumn, out);
     else if (q.use && IsDeadBus(model, r, k))
       TellUseless(r, q.channel, "lost", kWholeColumn, out);
+    else if (q.use && c != columns.end() && IsStuckReading(r, k, *c))
+      TellUseless(r, q.channel, y.front() == 0 ? "lost" : "freeze", kWholeColumn, out);
     else
       continue;
-    const auto c = std::ranges::find(columns, q.channel, &GateColumn::name);
     if (c != columns.end()) c->explained = true;
   }
 }

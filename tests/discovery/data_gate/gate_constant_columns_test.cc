@@ -14,19 +14,21 @@ using ::testing::EndsWith;
 using testing::ExpectOnly;
 using testing::FaultsOf;
 using ::testing::HasSubstr;
+using testing::kClampedRecord;
 using testing::kStepRecord;
 using testing::Measured;
 using testing::RecordNamed;
 
-/// The measured case with this value throughout in a column of the steps, as a case file would read
+/// The measured case with this value throughout in a column of a record, as a case file would read
 /// it.
-Case Holding(const std::string& channel, double value) {
+Case Holding(const std::string& channel, double value, const char* record = kStepRecord) {
   Case c = Measured();
-  CaseRecord& r = c.records[RecordNamed(c, kStepRecord)];
+  CaseRecord& r = c.records[RecordNamed(c, record)];
+  const bool clamped = r.scenario.start == StartState::kClamped;
   for (std::size_t k = 0; k < r.data.channels.size(); ++k) {
     if (r.data.channels[k].name != channel) continue;
     std::ranges::fill(r.data.channels[k].samples, value);
-    r.quality[k] = InspectChannel(r.data.channels[k], channel == "bus");
+    r.quality[k] = InspectChannel(r.data.channels[k], clamped || channel == "bus");
   }
   return c;
 }
@@ -52,6 +54,21 @@ TEST(GateConstantColumns, AnEmptyColumnIsNamed) {
 TEST(GateConstantColumns, ABusOfZeroVoltsIsNamed) {
   ExpectUseless("bus", 0, "bus holds 0 in the whole record");
   EXPECT_TRUE(FaultsOf(Holding("bus", testing::RadialRig().amplifier.bus_voltage)).empty());
+}
+
+// A held shaft stands still, but its readings have the noise of the sensors. The true place may be
+// told without noise.
+TEST(GateConstantColumns, AReadingOfAHeldShaftThatStoodAtALimitIsNamed) {
+  const auto faults = FaultsOf(Holding("A.y", 6e-5, kClampedRecord));
+  ExpectOnly(faults, "freeze", "A.y");
+  EXPECT_THAT(faults[0].mend, EndsWith("\"A.y\" = { use = false }"));
+
+  const Case measured = Measured();
+  const CaseRecord& clamped = measured.records[RecordNamed(measured, kClampedRecord)];
+  const Channel* reading = clamped.data.Find("A.y");
+  double mean = 0;
+  for (const double v : reading->samples) mean += v / static_cast<double>(reading->samples.size());
+  EXPECT_TRUE(FaultsOf(Holding("A.y", mean, kClampedRecord)).empty());
 }
 
 }  // namespace
