@@ -32,9 +32,10 @@ enum ActsOn : unsigned {
   kOnOpposed = 4,
   kOnStator = 8,        // any stator with two axes
   kOnAxialStator = 16,  // any stator along the shaft
-  kOnAll = 31,
+  kOnPoleByPole = 32,   // either of these whose coils have a pole each (PoleByPole)
+  kOnAll = 63,
   // whose iron the lanes have coil by coil: laws of the iron act on these only
-  kOnIron = kOnRadial | kOnThrust | kOnOpposed
+  kOnIron = kOnRadial | kOnThrust | kOnOpposed | kOnPoleByPole
 };
 
 /// What a run must have for the effect to show in its record.
@@ -61,7 +62,7 @@ struct EffectParameter {
 struct EffectTargets {
   std::vector<std::string> bearings, planes, coils, axes;
   std::vector<std::string> stations;  // named planes of a beam rotor
-  // names above (and "z", the plane of a thrust bearing) -> kind of their bearing, a bit of ActsOn
+  // names above (and "z", the plane of a thrust bearing) -> what their bearing is, bits of ActsOn
   std::map<std::string, unsigned> kind;
 };
 

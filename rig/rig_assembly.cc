@@ -12,6 +12,8 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kGapOfNoPole = 1e20;  // [m], of lanes without a coil: no flux passes there
+
 BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, RotorModel& rotor) {
   BearingPlant plant;
   plant.name = b.name;
@@ -22,9 +24,10 @@ BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, R
   plant.plane = kind.plane(b, rotor, b.z);
   plant.sensor.map = kind.plane(b, rotor, b.sensor.z);
   plant.sensor.noise = b.sensor.noise;
-  static_cast<StatorGeometry&>(plant.lanes) = kind.stator(b);
+  const StatorGeometry stator = kind.stator(b);
+  static_cast<StatorGeometry&>(plant.lanes) = PoleByPole(stator).value_or(stator);
   for (int j = plant.lanes.coils; j < kLanes; ++j) {
-    plant.lanes.gap_offset[j] = 1;  // inert lanes: harmless numbers
+    plant.lanes.gap_offset[j] = kGapOfNoPole;
     plant.lanes.leakage[j] = 1;
   }
   plant.lanes.unipolar = rig.amplifier.quadrants < 3;

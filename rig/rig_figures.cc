@@ -18,7 +18,8 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
     known.bearings.push_back(b.name);
     for (int j = 0; j < b.coils(); ++j) known.coils.push_back(CoilName(b.name, j));
     for (const auto& axis : b.Axes()) known.axes.push_back(axis);
-    const unsigned kind = b.kind->acts_on;
+    const unsigned kind =
+        b.kind->acts_on | (PoleByPole(b.kind->stator(b)) ? unsigned{kOnPoleByPole} : 0U);
     known.kind[b.name] = known.kind[known.planes.back()] = kind;
     for (int j = 0; j < b.coils(); ++j) known.kind[CoilName(b.name, j)] = kind;
     for (const auto& axis : b.Axes()) known.kind[axis] = kind;

@@ -56,6 +56,45 @@ StatorGeometry GeometryOf(const OpposedStatorParameters& p) {
   return g;
 }
 
+namespace {
+
+/// The pole that coil `j` alone is wound on, and that has no other coil; -1: there is none.
+int PoleOf(const PoleNetwork& network, int j) {
+  int found = -1;
+  for (int p = 0; p < network.poles(); ++p) {
+    if (network.turns()(p, j) == 0) continue;
+    if (found >= 0 || (network.turns().row(p).array() != 0).count() != 1) return -1;
+    found = p;
+  }
+  return found;
+}
+
+/// Whether two poles are alike but for their direction in the plane.
+bool AreAlike(const NetworkPole& a, const NetworkPole& b) {
+  return a.area == b.area && a.gap == b.gap && a.part == b.part && a.direction[2] == 0 &&
+         b.direction[2] == 0 && a.reluctance == 0 && b.reluctance == 0;
+}
+
+}  // namespace
+
+std::optional<StatorGeometry> PoleByPole(const StatorGeometry& stator) {
+  if (stator.coupling != Coupling::kNetwork) return std::nullopt;
+  const PoleNetwork& network = *stator.network;
+  if (network.has_magnets() || network.poles() != network.coils()) return std::nullopt;
+  StatorGeometry g = stator;
+  g.coupling = Coupling::kFloatingRotor;
+  g.network = nullptr;
+  for (int j = 0; j < g.coils; ++j) {
+    const int p = PoleOf(network, j);
+    if (p < 0 || !AreAlike(network.pole(p), network.pole(0))) return std::nullopt;
+    g.n[j] = network.turns()(p, j);
+    g.direction_x[j] = network.pole(p).direction[0];
+    g.direction_y[j] = network.pole(p).direction[1];
+    g.gap_offset[j] = network.pole(p).gap;
+  }
+  return g;
+}
+
 std::vector<std::array<double, 2>> StatorGeometry::Directions() const {
   std::vector<std::array<double, 2>> out;
   for (int j = 0; j < coils; ++j) out.push_back({direction_x[j], direction_y[j]});

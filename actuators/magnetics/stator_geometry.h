@@ -11,6 +11,7 @@
 /// x lies along it and y is 0. Source: docs/theory/base_model.md section 2.
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "actuators/magnetics/coupling.h"
@@ -45,5 +46,10 @@ struct StatorGeometry {
 StatorGeometry GeometryOf(const RadialStatorParameters& p);
 StatorGeometry GeometryOf(const ThrustStatorParameters& p);
 StatorGeometry GeometryOf(const OpposedStatorParameters& p);
+
+/// The same stator pole by pole (kFloatingRotor), where each coil of its network has a pole of its
+/// own, all of one area and gap, on one iron without magnets: laws of the iron act on it then, and
+/// the fast path computes it. nullopt: any other.
+std::optional<StatorGeometry> PoleByPole(const StatorGeometry& stator);
 
 }  // namespace ambrig

@@ -45,6 +45,7 @@ std::string ActsOnText(const EffectDescription& d) {
     all = all && can;
     if (can) names += (names.empty() ? "" : ", ") + std::string(k->name);
   }
+  if ((d.acts_on & kOnPoleByPole) != 0 && !all) names += ", stator with a coil on each pole";
   return all ? "" : names;
 }
 

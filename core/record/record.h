@@ -1,6 +1,6 @@
 #pragma once
 /// A record: channels on one uniform time base. What a run writes and what a rig's data logger
-/// wrote are the same thing (docs/formats: "Record").
+/// wrote are the same thing (docs/guide/files.md, docs/guide/channel_names.md).
 #include <map>
 #include <string>
 #include <string_view>

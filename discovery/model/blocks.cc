@@ -6,6 +6,7 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "core/record/missing_samples.h"
 #include "discovery/model/controller_block.h"
+#include "discovery/model/record_rows.h"
 #include "discovery/model/record_traits.h"
 #include "discovery/model/residual_force.h"
 #include "rig/parameters/bearing_kind.h"
@@ -73,10 +74,8 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   const NominalRig known(nominal);
   options.nominal = &known;
   options.watch = false;
-  options.record_rate = RecordRateFor(rig, d.rate);
+  options.record_rate = SimulationRateFor(rig, d);
   const Record simulated = SwitchingEngine(rig, quiet, options).Run().record;
-  if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
-  const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
   const std::size_t settle =
       std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kLoopsSettle * d.rate));
   Mean error;
@@ -84,8 +83,11 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
     for (const ChannelId& current : ChannelsOf(b, ChannelKind::kCoilCurrent)) {
       const Channel *m = Find(d, current), *p = Find(simulated, current);
       if (!m || !p) continue;
-      for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k)
-        if (data.Sound(k)) error.Add(m->samples[k] - p->samples[k + shift]);
+      for (std::size_t k = settle; k < d.rows(); ++k) {
+        const BetweenRows row = PlaceOfRow(simulated.rate, d, k);
+        if (row.low >= p->samples.size()) break;
+        if (data.Sound(k)) error.Add(m->samples[k] - Between(p->samples, row));
+      }
     }
   Put(out, "coil", error);
 }

@@ -21,6 +21,7 @@ using Complex = std::complex<double>;
 using Spectrum = std::vector<Complex>;
 
 constexpr double kSettleTime = 0.1;                     // [s] before the window
+constexpr double kShortWarmUp = 0.05;                   // [s] where the start cancels
 constexpr double kShortWindow = 0.25, kLongWindow = 1;  // [s]
 constexpr std::size_t kMostLines = 64;
 constexpr double kPartOfClearance = 0.01, kPartOfBias = 0.02;  // rms of the whole test
@@ -232,6 +233,8 @@ std::optional<MultisineMeasurement::Spectra> MultisineMeasurement::Run(
     options.watch = false;
     options.nominal = &nominal;
     if (s.start == StartState::kLevitated) options.lost_after = 0.01;
+    // what moves by itself is in both runs of a turning shaft
+    if (s.start == StartState::kLevitated && opposite_plan_) options.warm_up = kShortWarmUp;
     return SwitchingEngine(rig, s, options).Run().record;
   };
   Record forth, back;

@@ -86,13 +86,30 @@ std::size_t StartsToClimb(const SimulatedStart& best, bool beside_adopted) {
   return best.share > 0.4 ? 3 : 5;
 }
 
+/// The same start with a shorter and a longer shaft that bends: the shape of a mode between the
+/// planes has valleys of its own.
+std::vector<EffectInstance> OtherLengths(const EffectInstance& e) {
+  std::vector<EffectInstance> out;
+  for (std::size_t row = 0; row < e.table.size(); ++row) {
+    if (e.table[row].name != "length") continue;
+    for (const double factor : {0.6, 1.6}) {
+      out.push_back(e);
+      out.back().values[row] = std::clamp(e.values[row] * factor, e.table[row].lo, e.table[row].hi);
+    }
+  }
+  return out;
+}
+
 /// The starts that explain most when they are simulated: the best as it stands, and the best that
 /// is reached from it or another.
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
   std::vector<SimulatedStart> order, climbed;
-  for (const EffectInstance& e : starts) order.push_back({e});
+  for (const EffectInstance& e : starts) {
+    order.push_back({e});
+    for (const EffectInstance& other : OtherLengths(e)) order.push_back({other});
+  }
   const auto sort = [](std::vector<SimulatedStart>& list) {
     std::stable_sort(list.begin(), list.end(),
                      [](const auto& a, const auto& b) { return a.score < b.score; });

@@ -5,12 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "actuators/magnetics/coil_network.h"
+#include "core/math/constants.h"
 #include "fdd/detectors/detection_feed.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_figures.h"
 #include "rig/rig_file.h"
+#include "tests/actuators/magnetics/template_stator.h"
 
 namespace ambrig {
 namespace {
@@ -111,6 +115,39 @@ TEST(StatorGeometry, ANumberOfLettersThatIsNotThatOfThePolesIsTheCallersMistake)
   RadialStatorParameters p = EightPoles();
   p.winding = "NSNSNSN";
   EXPECT_THROW(GeometryOf(p), std::logic_error);
+}
+
+// What holds where every coil has one of the poles, all alike, on one iron without magnets.
+TEST(StatorGeometry, ACoilOnEachPoleIsAStatorPoleByPole) {
+  const auto of = [](const std::function<void(StatorParameters&)>& change) {
+    StatorParameters p = testing::TemplateStator("one-coil-per-pole", {90, 2e-4, 4e-4, 1e-3}, 6);
+    p.first_pole_angle_deg = 0;
+    p.winding = "NSNSNS";
+    p.poles = PolesOf(p);
+    p.pattern.clear();
+    change(p);
+    return PoleByPole(GeometryOf(p));
+  };
+  const auto g = of([](StatorParameters& p) { std::swap(p.poles[1], p.poles[4]); });
+  ASSERT_TRUE(g);
+  EXPECT_EQ(g->coils, 6);
+  for (int j = 0; j < 6; ++j) {
+    EXPECT_EQ(g->n[j], j % 2 == 0 ? 90 : -90);
+    EXPECT_NEAR(g->direction_x[j], std::cos(j * kPi / 3), 1e-12) << j;
+    EXPECT_NEAR(g->direction_y[j], std::sin(j * kPi / 3), 1e-12) << j;
+  }
+  EXPECT_DOUBLE_EQ(g->reluctance.per_metre, 1 / (kMu0 * 2e-4));
+  EXPECT_FALSE(of([](StatorParameters& p) { p.poles[2].area *= 1.1; }));
+  EXPECT_FALSE(of([](StatorParameters& p) { p.poles[2].gap *= 1.1; }));
+  EXPECT_FALSE(of([](StatorParameters& p) { p.poles[2].cone_deg = 5; }));
+  EXPECT_FALSE(of([](StatorParameters& p) { p.poles[2].plane = 2; }));
+  EXPECT_FALSE(of([](StatorParameters& p) { p.poles[2].turns[0] = 20; }));
+  EXPECT_FALSE(of([](StatorParameters& p) { p.poles[2].magnet = {100, 1e-3, 2e-4, 1.05}; }));
+  EXPECT_FALSE(
+      of([](StatorParameters& p) { p.poles.push_back(p.poles[2]), p.poles.back().turns.clear(); }));
+  EXPECT_FALSE(
+      PoleByPole(GeometryOf(testing::TemplateStator("series-pairs", {90, 2e-4, 4e-4, 1e-3}))));
+  EXPECT_FALSE(PoleByPole(GeometryOf(EightPoles())));
 }
 
 bool SameBits(const Lane& a, const Lane& b, int coils) {

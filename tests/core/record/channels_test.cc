@@ -14,7 +14,7 @@ struct Named {
   ChannelId id;
 };
 
-// The names that docs/formats give to the channels of a record.
+// The names that docs/guide/channel_names.md gives to the channels of a record.
 const Named kNamed[] = {
     {"A.x", {ChannelKind::kReading, "A", 0}},
     {"motor.y", {ChannelKind::kReading, "motor", 1}},

@@ -51,7 +51,7 @@ TEST(StatorFile, PolesOneByOneAreTheTemplate) {
 }
 
 TEST(StatorFile, EffectsThatActOnNothingAreSaid) {
-  const std::string said = MistakeOf(TextOf("six_poles.toml") +
+  const std::string said = MistakeOf(TextOf("series_pairs.toml") +
                                      "\n[[effect]]\nname = \"eddy-currents\"\ntarget = \"A\"\n");
   EXPECT_THAT(said, HasSubstr("effect[1].name = \"eddy-currents\": acts on no part of this rig"));
   EXPECT_THAT(said, HasSubstr("allowed: where `ambrig effects eddy-currents` says"));
