@@ -100,6 +100,7 @@ struct EffectDescription {
   bool users_own = false;      // law and parameters stand in the rig file: nothing can be proposed
   bool tone = false;           // one line of unknown frequency, not a resonance
   bool mains = false;          // that line is the mains' or a multiple
+  bool adds_signal = false;    // to a reading, whatever the shaft does: no response shows it
   bool switches_pair = false;  // its two switches act together, with equal or opposite sign
   std::string
       positive;  // parameter that this physics never makes negative, though a fit may; empty: none

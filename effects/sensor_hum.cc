@@ -29,6 +29,7 @@ EffectDescription SensorHum() {
                   {"c5", "m", 0, -1e-3, 1e-3, 5e-8, 2e-6, "fifth harmonic, cosine"},
                   {"s5", "m", 0, -1e-3, 1e-3, 5e-8, 2e-6, "fifth harmonic, sine"}};
   d.off_when_null = {"c", "s", "c3", "s3", "c5", "s5"};
+  d.adds_signal = true;
   d.shows_in = "every levitated record, quiet ones best: a line that does not move with the speed";
   d.confused_with = "base-vibration (acts on all planes as a force), unbalance at that very speed";
   d.apply = [](const EffectInstance& e, Plant& plant) {

@@ -51,6 +51,7 @@ EffectDescription SensorRunout() {
       d.off_when_null.push_back(name);
     }
   }
+  d.adds_signal = true;
   d.shows_in =
       "turning records at two speeds: the reading stays at slow roll, where unbalance vanishes";
   d.confused_with =

@@ -20,9 +20,9 @@ namespace {
 using Complex = std::complex<double>;
 using Spectrum = std::vector<Complex>;
 
-constexpr double kSettleTime = 0.1;                     // [s] before the window
-constexpr double kShortWarmUp = 0.05;                   // [s] where the start cancels
-constexpr double kShortWindow = 0.25, kLongWindow = 1;  // [s]
+constexpr double kSettleTime = 0.1;                       // [s] before the window
+constexpr double kShortWarmUp = 0.05;                     // [s] where the start cancels
+constexpr double kShortWindow = 0.25, kLongWindow = 0.5;  // [s]
 constexpr std::size_t kMostLines = 64;
 constexpr double kPartOfClearance = 0.01, kPartOfBias = 0.02;  // rms of the whole test
 
@@ -102,7 +102,7 @@ void MultisineMeasurement::ChooseLines() {
   double least = kInfinity;
   for (const double at : f)
     if (at > 0) least = std::min(least, at);
-  window_ = AsSize(std::lround(rate * std::clamp(2 / least, kShortWindow, kLongWindow)));
+  window_ = AsSize(std::lround(rate * std::clamp(1 / least, kShortWindow, kLongWindow)));
   settle_ = AsSize(std::lround(rate * kSettleTime));
   std::vector<double> all;
   const double step = rate / static_cast<double>(window_);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discovery/model/run_memo.h"
+#include "effects/catalogue.h"
 #include "effects/plant.h"
 #include "rig/rig_assembly.h"
 
@@ -59,7 +60,7 @@ ResponsePredictor::Split ResponsePredictor::SplitOf(const RigParameters& rig) co
   Split out{rig, true};
   out.linear.effects.clear();
   for (const EffectInstance& e : rig.effects) {
-    if (e.IsNull()) continue;
+    if (e.IsNull() || (!e.IsFormula() && EffectNamed(e.name).adds_signal)) continue;
     const std::string key = e.name + " " + e.target + " " + e.label;
     std::unique_lock lock(mutex_);
     const auto known = in_linear_model_.find(key);
