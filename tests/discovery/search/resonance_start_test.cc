@@ -13,17 +13,13 @@
 #include "rig/parameters/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
+#include "tests/discovery/search/resonance_case.h"
 
 namespace ambrig {
 namespace {
 
-EffectInstance BaseOf(double mass, double frequency, double damping) {
-  EffectInstance e = MakeInstance(EffectNamed("base-mode"), "rig");
-  e.Set("mass", mass);
-  e.Set("frequency", frequency);
-  e.Set("damping", damping);
-  return e;
-}
+using testing::BaseOf;
+using testing::ResonanceStartTest;
 
 std::vector<ProbeGroup> GridOf(const std::vector<double>& frequencies) {
   std::vector<ProbeGroup> grid;
@@ -45,39 +41,6 @@ FitResult BesideNothing(FitResult fit) {
   return fit;
 }
 
-class ResonanceStartTest : public ::testing::Test {
- protected:
-  ResonanceStartTest() {
-    RigParameters rig =
-        ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/heavy_compressor/rig.toml");
-    std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
-    rig.tolerances.clear();
-    std::vector<ExaminationRecord> records = Examination(rig, 5, {});
-    records.resize(1);  // multisine at rest
-    data_ = EmptyCase(rig, records);
-    Measure(BaseOf(90, 35, 0.02));
-  }
-  /// The record of a rig with this effect.
-  void Measure(const EffectInstance& effect) {
-    const CaseModel empty(data_);
-    Hypothesis truth = Hypothesis::Base(data_.rig);
-    truth.AddEffect(effect);
-    const Record measured = empty.Simulated(truth, 0, false, 1);
-    for (Channel& ch : data_.records[0].data.channels)
-      if (const Channel* from = measured.Find(ch.name))
-        ch.samples.assign(from->samples.begin(),
-                          from->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
-  }
-  /// The rig as it is, over floors of a thousandth of each channel.
-  FitResult Simulated(CaseModel& model) const {
-    for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
-    FitOptions look;
-    look.iterations = 0;
-    return Fit(model, Hypothesis::Base(data_.rig), look);
-  }
-  Case data_;
-};
-
 TEST_F(ResonanceStartTest, DampingIsHeldUntilTheFrequencyIsFound) {
   CaseModel model(data_, 4);
   const FitResult base = Simulated(model);
@@ -90,33 +53,6 @@ TEST_F(ResonanceStartTest, DampingIsHeldUntilTheFrequencyIsFound) {
   EXPECT_NEAR(found.Value("frequency"), 35, 0.4);
   EXPECT_NEAR(found.Value("mass"), 90, 3);
   EXPECT_NEAR(found.Value("damping"), 0.02, 0.005);
-}
-
-// The shape of a mode between the planes has valleys of its own: readings at both sensors tell a
-// shaft of half the length.
-TEST_F(ResonanceStartTest, AShorterShaftThatBendsIsFound) {
-  const auto bending = [](double frequency, double gain_a, double gain_b, double length) {
-    EffectInstance e = MakeInstance(EffectNamed("bending-mode"), "rig");
-    e.Set("frequency", frequency);
-    e.Set("gain_a", gain_a);
-    e.Set("gain_b", gain_b);
-    e.Set("length", length);
-    return e;
-  };
-  data_.rig.bearings[1].sensor.z = 0.3;  // within the bearings; the other one stands outside
-  Measure(bending(300, 0.06, 0.07, 0.55));
-  CaseModel model(data_, 4);
-  const FitResult base = Simulated(model);
-  Candidate candidate;
-  candidate.narrow = true;
-  candidate.effect = bending(310, 0.05, 0.05, 1);
-  const FitResult fit = FitBriefly(model, base, candidate, 1e5);
-  ASSERT_TRUE(fit.converged);
-  const EffectInstance found = FittedEffect(fit, 0);
-  EXPECT_NEAR(found.Value("frequency"), 300, 1);
-  EXPECT_NEAR(found.Value("gain_a"), 0.06, 0.003);
-  EXPECT_NEAR(found.Value("gain_b"), 0.07, 0.003);
-  EXPECT_LT(found.Value("length"), 0.7);
 }
 
 // Of several starts the one that explains most when it is simulated goes first, whatever the linear
