@@ -1,5 +1,6 @@
 #include "discovery/case/bench_tables.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -9,7 +10,8 @@ namespace ambrig {
 
 double CoherenceSd(double magnitude, double g2, double averages) {
   if (!(g2 > 0)) return kInfinity;
-  return g2 < 1 ? magnitude * std::sqrt((1 - g2) / (2 * averages * g2)) : 0;
+  const double counted = std::max(averages - 2, 0.5 * averages);
+  return g2 < 1 ? magnitude * std::sqrt((1 - g2) / (2 * counted * g2)) : 0;
 }
 
 double MeterFrequency(const std::string& output) {

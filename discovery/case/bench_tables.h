@@ -43,8 +43,10 @@ struct ResponseTable {
 };
 
 /// Standard deviation of the real and of the imaginary part of an estimate H with coherence g2 over
-/// `averages` averages:  |H| sqrt((1 - g2) / (2 averages g2)).  Infinite where nothing is coherent.
-/// Source: Bendat and Piersol, Random Data, 4th ed., table 9.6.
+/// n = `averages` averages:  |H| sqrt((1 - g2) / (2 (n - 2) g2)).  Infinite where nothing is
+/// coherent. Source: Bendat and Piersol, Random Data, 4th ed., table 9.6, with n - 2 for n: a
+/// coherence of few averages is an estimate too, so that the squared error over that of the table
+/// is F distributed with 2 and 2 (n - 1) degrees of freedom, with mean n/(n - 2). At least n/2.
 double CoherenceSd(double magnitude, double g2, double averages);
 
 /// Rows of a table: positions and currents that were set, force or impedance that was read.

@@ -4,9 +4,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <complex>
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/math/noise.h"
 #include "discovery/case/bench_tables.h"
 #include "tests/discovery/bench_case.h"
 
@@ -47,8 +50,8 @@ TEST_F(CaseBench, ResponsesInSiOverTheirSd) {
   EXPECT_EQ(p.excited.name, "A.x.force");
   EXPECT_TRUE(p.sd_known);
   EXPECT_NEAR(std::abs(p.values[0] - std::complex<double>(2e-6, -1e-6)), 0, 1e-18);
-  // |H| sqrt((1 - 0.8)/(2 * 8 * 0.8)) = sqrt(2) um/N * 0.125
-  EXPECT_NEAR(p.sd[1], std::sqrt(2.0) * 1e-6 * 0.125, 1e-15);
+  // |H| sqrt((1 - 0.8)/(2 * 6 * 0.8)) = sqrt(2) um/N * sqrt(1/48)
+  EXPECT_NEAR(p.sd[1], std::sqrt(2.0 / 48) * 1e-6, 1e-15);
   ASSERT_EQ(r.data.channels.size(), 2u);
   EXPECT_EQ(r.data.channels[0].name, "Re(A.x/A.x.command)");
   EXPECT_NEAR(r.data.channels[1].samples[1], -1e-6 / p.sd[1], 1e-9);
@@ -57,10 +60,36 @@ TEST_F(CaseBench, ResponsesInSiOverTheirSd) {
   EXPECT_THAT(c.notes, ::testing::Contains(HasSubstr("2 of 4 points left out")));
 }
 
-// sqrt((1 - g²)/(2 n g²)): nothing random where all is coherent, nothing known where nothing is.
+// Estimates of averages of a noisy output, as an analyser makes them.
+TEST(CoherenceSd, IsTheErrorOfEstimatesOfFewAverages) {
+  using Complex = std::complex<double>;
+  const Complex H(1.2, -0.7);
+  for (const std::uint32_t averages : {6U, 16U, 64U}) {
+    double sum = 0;
+    constexpr std::uint32_t kEstimates = 20000;
+    for (std::uint32_t e = 0; e < kEstimates; ++e) {
+      const auto draw = [&](std::uint32_t stream, std::uint32_t k) {
+        const std::uint64_t at = 4ULL * (e * averages + k) + stream;
+        return Complex(Normal(3, 1, at), Normal(3, 2, at));
+      };
+      Complex xy;
+      double xx = 0, yy = 0;
+      for (std::uint32_t k = 0; k < averages; ++k) {
+        const Complex x = draw(0, k), y = H * x + 0.5 * draw(1, k);
+        xy += std::conj(x) * y, xx += std::norm(x), yy += std::norm(y);
+      }
+      const double g2 = std::norm(xy) / (xx * yy);
+      sum += std::norm(xy / xx - H) / std::pow(CoherenceSd(std::abs(xy / xx), g2, averages), 2);
+    }
+    EXPECT_NEAR(std::sqrt(sum / (2 * kEstimates)), 1, 0.02) << averages;
+  }
+}
+
+// sqrt((1 - g²)/(2 (n - 2) g²)): nothing random where all is coherent, nothing known where nothing is.
 TEST_F(CaseBench, CoherenceTellsTheRandomPart) {
   EXPECT_EQ(CoherenceSd(3, 1, 10), 0);
-  EXPECT_NEAR(CoherenceSd(3, 0.5, 8), 3.0 / 4, 1e-12);
+  EXPECT_NEAR(CoherenceSd(3, 0.5, 8), 3 / std::sqrt(12.0), 1e-12);
+  EXPECT_NEAR(CoherenceSd(3, 0.5, 1), 3, 1e-12);
   EXPECT_EQ(CoherenceSd(3, 0, 10), std::numeric_limits<double>::infinity());
 }
 
