@@ -33,9 +33,10 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
     if (model.data().records[r].kind == RecordKind::kFrf)
       CheckResponses(model, predicted, h, r, out);
     else
-      CheckTableRange(model, predicted, r, out);
-    if (model.data().records[r].kind == RecordKind::kStatic && out.empty())
       CheckTable(model, predicted, h, r, out);
+    // a column in a wrong unit holds values that cannot be, too
+    if (model.data().records[r].kind == RecordKind::kStatic && out.empty())
+      CheckTableRange(model, predicted, r, out);
     return out;
   }
   std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
@@ -74,6 +75,8 @@ std::string Quantity(const DataFault& f) {
   if (f.with == kDecibels)
     return f.factor < 1 ? "has 10 log of its magnitudes, read as 20 log"
                         : "has 20 log of its magnitudes, read as 10 log";
+  if (f.with == kLevels) return "has magnitudes in dB, read as they are";
+  if (f.with == kInverse) return "is one over what its name says";
   if (f.fault == "unit") return fmt::format("is {:.4g} times what it should be", f.factor);
   if (f.fault == "sign") return "has the wrong sign";
   if (f.fault == "swap")
@@ -99,6 +102,8 @@ std::string Quantity(const DataFault& f) {
 /// What is to be done where no line of a case file mends a fault.
 std::string Correction(const DataFault& f) {
   if (f.with == kPhase) return "state the unit of its phases in the header of the file";
+  if (f.with == kLevels) return "write (dB) into the head of its magnitudes";
+  if (f.with == kInverse) return "write one over it into the file";
   if (f.with == kDecibels) return "write its magnitudes into the file as 20 log, or as they are";
   if (f.fault == "range") return "correct its values in the file, or leave them empty";
   if (f.with == kOtherMachine)

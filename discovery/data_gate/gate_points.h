@@ -11,7 +11,8 @@
 namespace ambrig {
 
 /// What of a response is wrong beside its size (DataFault::with).
-inline constexpr const char *kConjugate = "conjugate", *kPhase = "phase", *kDecibels = "decibels";
+inline constexpr const char *kConjugate = "conjugate", *kPhase = "phase", *kDecibels = "decibels",
+                            *kLevels = "levels", *kInverse = "inverse";
 
 /// A response as the gate sees it: points that count only.
 struct GateResponse {
@@ -37,8 +38,8 @@ struct ResponseMistake {
 /// The mistake that explains the response best, `fault` empty where none does.
 ResponseMistake MistakeOf(const GateResponse& r, bool quotient);
 
-/// Signs, conjugates, units, phases, decibels and delays of the responses; the unit of their
-/// frequencies.
+/// Signs, conjugates, inverses, units, phases, decibels and delays of the responses; the unit of
+/// their frequencies.
 void CheckResponses(const CaseModel& model, const std::vector<double>& predicted,
                     const Hypothesis& h, std::size_t record, std::vector<DataFault>& out);
 

@@ -87,6 +87,33 @@ void TryDecibels(const GateResponse& r, double before, ResponseMistake& best) {
   }
 }
 
+/// Levels in decibels over any unit that were read as magnitudes, in the unit of their column.
+void TryLevels(const GateResponse& r, double before, ResponseMistake& best) {
+  static constexpr std::array kUnits = {1.0, 1e-3, 1e-6, 1e-9};
+  for (const double over : kUnits)
+    for (const double read : kUnits) {
+      const auto level = [over, read](Complex v) {
+        const double size = std::abs(v);
+        return size > 0 ? read * 20 * std::log10(size / over) * (v / size) : Complex(0);
+      };
+      const double left = RelativeError(r, Each(r.expected, level));
+      if (Believed(r, before, left, kLeftOfResponse))
+        KeepBetter(best, {"unit", kLevels, 1, 0, left});
+    }
+}
+
+/// One over the response: a stiffness under the name of a compliance, with any prefixes.
+void TryInverse(const GateResponse& r, double before, ResponseMistake& best) {
+  constexpr double kNear = 0.1;
+  const double size = MeanSize(r, -1);
+  const double prefix = std::pow(10, 3 * std::round(std::log10(size) / 3));
+  if (std::abs(std::log(size / prefix)) > kNear) return;
+  const double left = RelativeError(r, Each(r.expected, [prefix](Complex v) {
+                                      return std::abs(v) > 0 ? prefix / v : Complex(0);
+                                    }));
+  if (Believed(r, before, left, kLeftOfResponse)) KeepBetter(best, {"unit", kInverse, 1, 0, left});
+}
+
 /// Phases of the expected response [rad] as instruments write them: within half a turn, from 0 on,
 /// without jumps.
 std::array<std::vector<double>, 3> WrittenPhases(const Values& expected) {
@@ -175,6 +202,8 @@ ResponseMistake MistakeOf(const GateResponse& r, bool quotient) {
   TrySigns(r, before, best);
   TryFactors(r, before, best);
   TryDecibels(r, before, best);
+  TryLevels(r, before, best);
+  TryInverse(r, before, best);
   TryPhases(r, before, best);
   TryDelay(r, quotient, before, best);
   best.left = before > 0 ? best.left / before : 1;

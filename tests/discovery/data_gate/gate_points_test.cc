@@ -189,6 +189,20 @@ TEST(GatePoints, DecibelsOfAPower) {
                        "unit", power);
 }
 
+// Over micrometres and over metres per newton, in a column of micrometres.
+TEST(GatePoints, LevelsReadAsMagnitudes) {
+  for (const double over : {1.0, 1e6})
+    ExpectOfCompliance(OfCompliance([=](double, Complex v) {
+                         return 20 * std::log10(std::abs(v) / over) * v / std::abs(v);
+                       }),
+                       "unit", 1);
+}
+
+TEST(GatePoints, StiffnessUnderTheNameOfACompliance) {
+  for (const double unit : {1.0, 1e-12})
+    ExpectOfCompliance(OfCompliance([=](double, Complex v) { return unit / v; }), "unit", 1);
+}
+
 TEST(GatePoints, DelaysOfAnInstrument) {
   for (const double late : {1e-3, -2e-3, 8e-3})
     ExpectOfCompliance(

@@ -67,6 +67,8 @@ TEST(GateTables, FactorsOfTables) {
   ExpectOfTable([](auto& row) { row[3] *= 1e-3; }, {"A.fx"}, 1e-3);
   ExpectOfTable([](auto& row) { row[4] *= -1; }, {"A.fy"}, -1);
   ExpectOfTable([](auto& row) { row[3] *= 2.3; }, {"A.fx"}, 2.3);
+  ExpectOfTable([](auto& row) { row[3] /= 9.80665e-3, row[4] /= 9.80665e-3; }, {"A.fx", "A.fy"},
+                1e3 / 9.80665);
   // larger forces in both directions are the machine's
   EXPECT_TRUE(FaultsOfTable([](auto& row) { row[3] *= 1.7, row[4] *= 1.7; }).empty());
 }
@@ -89,6 +91,8 @@ TEST(GateTables, ReadingsOfATableThatCannotBe) {
 
 TEST(GateTables, WhatWasSetInATable) {
   ExpectOfTable([](auto& row) { row[1] *= 1e-3, row[2] *= 1e-3; }, {"A.i1", "A.i3"}, 1e-3);
+  // currents beyond all that an amplifier gives, but all of them
+  ExpectOfTable([](auto& row) { row[1] *= 1e3, row[2] *= 1e3; }, {"A.i1", "A.i3"}, 1e3);
   ExpectOfTable([](auto& row) { row[0] *= -1; }, {"A.x"}, -1);
 }
 
