@@ -85,7 +85,8 @@ TEST(CoherenceSd, IsTheErrorOfEstimatesOfFewAverages) {
   }
 }
 
-// sqrt((1 - g²)/(2 (n - 2) g²)): nothing random where all is coherent, nothing known where nothing is.
+// sqrt((1 - g²)/(2 (n - 2) g²)): nothing random where all is coherent, nothing known where nothing
+// is.
 TEST_F(CaseBench, CoherenceTellsTheRandomPart) {
   EXPECT_EQ(CoherenceSd(3, 1, 10), 0);
   EXPECT_NEAR(CoherenceSd(3, 0.5, 8), 3 / std::sqrt(12.0), 1e-12);
