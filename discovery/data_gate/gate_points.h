@@ -39,7 +39,7 @@ struct ResponseMistake {
 ResponseMistake MistakeOf(const GateResponse& r, bool quotient);
 
 /// Signs, conjugates, inverses, units, phases, decibels and delays of the responses; the unit of
-/// their frequencies.
+/// their frequencies; outputs of another axis.
 void CheckResponses(const CaseModel& model, const std::vector<double>& predicted,
                     const Hypothesis& h, std::size_t record, std::vector<DataFault>& out);
 

@@ -97,28 +97,65 @@ CaseRecord WithFrequenciesOver(const CaseRecord& r, double factor, const RigPara
   return out;
 }
 
-/// The responses of `all` with what the model expects at other frequencies; empty where it cannot
-/// say.
-std::vector<GateResponse> ExpectedOver(const CaseModel& model, const Hypothesis& h,
-                                       std::size_t record, double factor) {
-  const CaseRecord shifted =
-      WithFrequenciesOver(model.data().records[record], factor, model.data().rig);
+/// The responses of `record` beside what the model expects of them; empty where it cannot say.
+std::vector<GateResponse> PredictedResponses(const CaseModel& model, const Hypothesis& h,
+                                             const CaseRecord& record) {
   std::vector<std::vector<double>> columns;
-  if (!MakePredictor(model.data(), shifted)->Predict(h.rig, columns)) return {};
+  if (!MakePredictor(model.data(), record)->Predict(h.rig, columns)) return {};
   std::vector<GateResponse> out;
-  for (std::size_t n = 0; n < shifted.responses.responses.size(); ++n) {
-    const RigResponse& response = shifted.responses.responses[n];
+  for (std::size_t n = 0; n < record.responses.responses.size(); ++n) {
+    const RigResponse& response = record.responses.responses[n];
     GateResponse r;
     r.index = n;
     for (std::size_t k = 0; k < response.sd.size(); ++k) {
-      if (shifted.quality[2 * n].ok[k] && shifted.quality[2 * n + 1].ok[k] &&
+      if (record.quality[2 * n].ok[k] && record.quality[2 * n + 1].ok[k] &&
           RelativeSd(response, k) > 0)
-        AddPoint(response, k, shifted.responses.frequency[k],
+        AddPoint(response, k, record.responses.frequency[k],
                  Complex(columns[2 * n][k], columns[2 * n + 1][k]), r);
     }
     out.push_back(std::move(r));
   }
   return out;
+}
+
+/// The record with its response `index` alone, as if that were of another output.
+CaseRecord WithOutput(const CaseRecord& r, std::size_t index, const ResponsePoint& output) {
+  CaseRecord out = r;
+  const auto keep = [](auto& list, std::size_t first, std::size_t count) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(first + count), list.end());
+    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  keep(out.responses.responses, index, 1);
+  keep(out.data.channels, 2 * index, 2);
+  keep(out.quality, 2 * index, 2);
+  out.responses.responses[0].output = output;
+  return out;
+}
+
+/// The same of another axis: a cable at the wrong input of the analyser. `shown` is that response.
+ResponseMistake OtherAxisOf(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                            const GateResponse& r, RigResponse* shown) {
+  constexpr double kLeft = 0.15;
+  const CaseRecord& from = model.data().records[record];
+  const ResponsePoint& output = from.responses.responses[r.index].output;
+  const double before = RelativeError(r, r.expected);
+  ResponseMistake best;
+  best.left = kLeft;
+  for (const BearingParameters& b : model.data().rig.bearings)
+    for (const std::string& axis : b.Axes()) {
+      if (axis == output.axis || !output.name.starts_with(output.axis)) continue;
+      const auto other =
+          ParseResponsePoint(model.data().rig, axis + output.name.substr(output.axis.size()));
+      if (!other || other->kind != output.kind) continue;
+      const CaseRecord one = WithOutput(from, r.index, *other);
+      const std::vector<GateResponse> as = PredictedResponses(model, h, one);
+      if (as.empty() || as[0].frequency.size() < kFewestPoints) continue;
+      const double left = RelativeError(as[0], as[0].expected) / before;
+      if (left >= best.left) continue;
+      *shown = one.responses.responses[0];
+      best = {"swap", shown->name(), 1, 0, left};
+    }
+  return best;
 }
 
 /// rms of the relative errors of responses.
@@ -138,7 +175,8 @@ FrequencyMistake FrequenciesOf(const CaseModel& model, const Hypothesis& h, std:
   FrequencyMistake best{1, kLeft};
   const double before = ErrorOfAll(all);
   for (const double factor : {2 * kPi, 1 / (2 * kPi), 60.0, 1 / 60.0, 1e3, 1e-3}) {
-    const std::vector<GateResponse> other = ExpectedOver(model, h, record, factor);
+    const std::vector<GateResponse> other = PredictedResponses(
+        model, h, WithFrequenciesOver(model.data().records[record], factor, model.data().rig));
     const bool enough = !other.empty() && std::ranges::all_of(other, [](const GateResponse& r) {
       return r.frequency.size() >= kFewestPoints;
     });
@@ -160,7 +198,7 @@ std::string ResponseLine(const RigResponse& r, const ResponseMistake& mistake) {
     m.late += mistake.seconds;
   } else if (mistake.with.empty()) {
     m.gain /= mistake.factor;
-  } else {
+  } else if (mistake.fault != "swap") {
     return "";  // phases beyond a turn, powers of magnitudes: the file lost what they were
   }
   std::string keys = fmt::format("trace = \"{}\"", m.trace);
@@ -204,10 +242,12 @@ void CheckResponses(const CaseModel& model, const std::vector<double>& predicted
     out.push_back(fault);
     return;
   }
-  for (const auto& [response, mistake] : gross) {
+  for (auto& [response, mistake] : gross) {
+    RigResponse of = r.responses.responses[response->index];
+    const std::string name = of.name();
+    if (mistake.fault.empty()) mistake = OtherAxisOf(model, h, record, *response, &of);
     if (mistake.fault.empty()) continue;
-    const RigResponse& of = r.responses.responses[response->index];
-    DataFault fault = FaultLeaving(r, of.name(), mistake.fault, mistake.left);
+    DataFault fault = FaultLeaving(r, name, mistake.fault, mistake.left);
     fault.factor = mistake.factor;
     fault.seconds = mistake.seconds;
     fault.with = mistake.with;

@@ -93,6 +93,22 @@ std::vector<DataFault> FaultsOfResponses(const Write& write,
   return FaultsOf(CaseOf(folder, line.empty() ? kRecord : WithLine(line)));
 }
 
+/// The same where the plant's trace is of another axis.
+std::vector<DataFault> FaultsOfOtherAxis(const std::string& axis) {
+  const TemporaryFolder folder;
+  std::string record = kRecord;
+  record.replace(record.find("A.x/A.x.command"), 3, axis);
+  const Write as_is = [](char, double at, Complex v) { return Point{at, v}; };
+  const std::vector<double> f = Frequencies();
+  WriteBytes(folder.File("a.csv"), FileOf(f, {2, std::vector<Complex>(f.size(), 1)}, as_is, 0));
+  const Case blank = CaseOf(folder, record);
+  auto H = ResponsePredictor(blank, blank.records[0]).Respond(blank.rig);
+  EXPECT_EQ(H.size(), 2U);
+  if (blank.records[0].responses.responses[0].name() != "A.x/A.x.force") std::swap(H[0], H[1]);
+  WriteBytes(folder.File("a.csv"), FileOf(f, H, as_is, 0.01));
+  return FaultsOf(CaseOf(folder, kRecord));
+}
+
 /// The change of the trace of the compliance alone.
 Write OfCompliance(const std::function<Complex(double, Complex)>& change) {
   return [change](char trace, double f, Complex v) {
@@ -139,6 +155,17 @@ TEST(GatePoints, LinesThatMendPhases) {
                  return std::polar(std::abs(v), kPi / 180 * std::arg(v));
                }),
                "phase_gain = 57.2957795");
+}
+
+// The plant's trace holds what the other bearing's sensor showed, and the compliance is right.
+TEST(GatePoints, ACableAtTheWrongInput) {
+  const std::vector<DataFault> faults = FaultsOfOtherAxis("B.x");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "swap");
+  EXPECT_EQ(faults[0].channel, "A.x/A.x.command");
+  EXPECT_EQ(faults[0].with, "B.x/A.x.command");
+  EXPECT_TRUE(faults[0].mend.starts_with("responses.\"B.x/A.x.command\" = { trace = \"p\""))
+      << faults[0].mend;
 }
 
 TEST(GatePoints, TheLineThatMendsFrequencies) {
