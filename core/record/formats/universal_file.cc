@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <complex>
 #include <functional>
+#include <limits>
 #include <set>
 
 #include "core/base/errors.h"
@@ -118,35 +120,59 @@ std::string ResponseUnit(const UniversalFunction& f) {
   return whole ? f.ordinate.unit : f.ordinate.unit + "/" + f.denominator.unit;
 }
 
-/// Coherences on the axis of the responses, by the names that responses have.
-void AddCoherence(const std::vector<const UniversalFunction*>& functions, FrequencyResponses& out) {
-  const std::vector<std::string> names = FunctionNames(functions);
-  for (std::size_t k = 0; k < functions.size(); ++k)
-    if (FrequenciesOf(*functions[k]) == out.frequency)
-      out.coherence.push_back({names[k], functions[k]->real});
+/// All frequencies of functions, each once. @throws InputError where those of one do not increase.
+std::vector<double> AllFrequencies(const std::vector<const UniversalFunction*>& functions,
+                                   const std::vector<std::string>& names, const std::string& path) {
+  std::vector<double> all;
+  for (std::size_t k = 0; k < functions.size(); ++k) {
+    const std::vector<double> axis = FrequenciesOf(*functions[k]);
+    for (std::size_t n = 1; n < axis.size(); ++n)
+      if (!(axis[n] > axis[n - 1]))
+        throw InputError(path + ": frequency " + std::to_string(n + 1) + " of " + names[k] + " = " +
+                         std::to_string(axis[n]) + " Hz, allowed: increasing");
+    all.insert(all.end(), axis.begin(), axis.end());
+  }
+  std::ranges::sort(all);
+  const auto twice = std::ranges::unique(all);
+  all.erase(twice.begin(), twice.end());
+  return all;
 }
 
-/// Frequency responses on the axis of the first; those on another one are left out.
+/// Values of a function over its own frequencies, at those of `all`: no numbers between its own.
+template <class T>
+std::vector<T> OverAll(const UniversalFunction& f, const std::vector<T>& values,
+                       const std::vector<double>& all) {
+  std::vector<T> out(all.size(), T(std::numeric_limits<double>::quiet_NaN()));
+  const std::vector<double> axis = FrequenciesOf(f);
+  for (std::size_t n = 0; n < axis.size(); ++n) {
+    const auto at = std::ranges::lower_bound(all, axis[n]);
+    if (at != all.end() && *at == axis[n])
+      out[static_cast<std::size_t>(at - all.begin())] = values[n];
+  }
+  return out;
+}
+
+/// Frequency responses, and coherences by the names that responses have, over the frequencies of
+/// all responses: each function has its own.
 FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functions,
                              const std::vector<const UniversalFunction*>& coherence,
-                             const std::string& path, std::vector<std::string>& notes) {
+                             const std::string& path) {
   FrequencyResponses out;
   const std::vector<std::string> names = FunctionNames(functions);
+  out.frequency = AllFrequencies(functions, names, path);
   for (std::size_t k = 0; k < functions.size(); ++k) {
     const UniversalFunction& f = *functions[k];
-    std::vector<double> axis = FrequenciesOf(f);
-    if (k == 0) out.frequency = axis;
-    if (axis != out.frequency) {
-      notes.push_back(path + ": " + names[k] + " has other frequencies than " + names[0] +
-                      ", left out");
-      continue;
-    }
-    MeasuredResponse r{names[k], ResponseUnit(f), {}};
-    for (std::size_t n = 0; n < f.real.size(); ++n)
-      r.values.emplace_back(f.real[n], f.imaginary[n]);
-    out.responses.push_back(std::move(r));
+    std::vector<std::complex<double>> values;
+    for (std::size_t n = 0; n < f.real.size(); ++n) values.emplace_back(f.real[n], f.imaginary[n]);
+    out.responses.push_back({names[k], ResponseUnit(f), OverAll(f, values, out.frequency)});
   }
-  AddCoherence(coherence, out);
+  const std::vector<std::string> coherent = FunctionNames(coherence);
+  for (std::size_t k = 0; k < coherence.size(); ++k) {
+    std::vector<double> values = OverAll(*coherence[k], coherence[k]->real, out.frequency);
+    const auto known = [](double v) { return std::isfinite(v); };
+    if (std::ranges::any_of(values, known))
+      out.coherence.push_back({coherent[k], std::move(values)});
+  }
   CheckResponses(out, path);
   return out;
 }
@@ -179,7 +205,7 @@ Measurement ReadUniversalFile(const std::string& path) {
   for (std::size_t k = 0; k < over_time.size(); ++k)
     channels.push_back(TimeChannel(*over_time[k], names[k], path));
   out.record = OneTimeBase(std::move(channels), path);
-  out.frequency = Responses(responses, coherence, path, notes);
+  out.frequency = Responses(responses, coherence, path);
   out.record.notes.insert(out.record.notes.end(), notes.begin(), notes.end());
   if (!out.record.channels.empty()) FinishRecord(out.record, path);
   return out;

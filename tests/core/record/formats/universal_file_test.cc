@@ -159,5 +159,25 @@ TEST(UniversalFile, CoherenceOfAResponse) {
   EXPECT_THAT(m.frequency.coherence[0].values, ElementsAre(1, 0.9, 0.8, 0.5));
 }
 
+// Each data set has an abscissa of its own: 10 to 40 Hz and 15 to 45 Hz.
+TEST(UniversalFile, ResponsesOverDifferentFrequencies) {
+  const testing::TemporaryFolder folder;
+  const std::string values =
+      "  1.00000E+00  0.00000E+00  2.00000E+00  1.00000E+00  3.00000E+00  2.00000E+00\n"
+      "  4.00000E+00  3.00000E+00\n";
+  std::string other = FrequencyFunction(4, 5, values);
+  other.replace(other.find("A.x"), 3, "B.x");
+  other.replace(other.find("1.00000E+01"), 11, "1.50000E+01");
+  testing::WriteBytes(folder.File("a.unv"), FrequencyFunction(4, 5, values) + other);
+  const FrequencyResponses f = ReadMeasurement(folder.File("a.unv")).frequency;
+  EXPECT_THAT(f.frequency, ElementsAre(10, 15, 20, 25, 30, 35, 40, 45));
+  ASSERT_EQ(f.responses.size(), 2U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(std::isnan(f.responses[0].values[k].real()), k % 2 == 1) << k;
+    EXPECT_EQ(std::isnan(f.responses[1].values[k].real()), k % 2 == 0) << k;
+  }
+  EXPECT_EQ(f.responses[1].values[7], std::complex<double>(4, 3));
+}
+
 }  // namespace
 }  // namespace ambrig
