@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "discovery/decision/decide.h"
+#include "discovery/model/run_memo.h"
 #include "discovery/search/local_share.h"
 
 namespace ambrig {
@@ -18,6 +19,14 @@ struct Demand {
 constexpr double kUnseenWorse = 1.05;  // of the ratio on unseen records: no effect makes that
 constexpr Demand kNearlyAll = {1.3, 0.8, 0.6, 40}, kAll = {1.1, 0.9, 0.85, 90};
 
+/// Whether the effects that a fit adopted show in a record, and with them the details that their
+/// laws leave.
+bool FeelsAdopted(const CaseModel& model, const FitResult& fit, const CaseRecord& record) {
+  const std::vector<EffectInstance>& effects = fit.hypothesis.rig.effects;
+  return std::any_of(effects.begin() + static_cast<std::ptrdiff_t>(model.data().rig.effects.size()),
+                     effects.end(), [&](const EffectInstance& e) { return Feels(record, e); });
+}
+
 }  // namespace
 
 bool ExplainsItsChannels(const CaseModel& model, const FitResult& before, const FitResult& after,
@@ -25,12 +34,19 @@ bool ExplainsItsChannels(const CaseModel& model, const FitResult& before, const 
   if (!after.converged || !Believable(after) ||
       after.ratio_validate > kUnseenWorse * std::max(1.0, before.ratio_validate))
     return false;
-  const LocalShare share = ShareWhereItActs(model, before.residual, after.residual);
-  const auto meets = [&](const Demand& d) {
+  const auto meets = [&](const LocalShare& share, const Demand& d) {
     return score_gain > d.gain && share.before > d.before && share.explained > d.explained &&
            (!share.seen_there || share.unseen > d.unseen);
   };
-  return meets(kAll) || (!first && meets(kNearlyAll));
+  const LocalShare share = ShareWhereItActs(model, before.residual, after.residual);
+  if (meets(share, kAll)) return true;
+  if (first) return false;
+  return meets(share, kNearlyAll) ||
+         meets(ShareWhereItActs(model, before.residual, after.residual,
+                                [&](std::size_t r) {
+                                  return !FeelsAdopted(model, before, model.data().records[r]);
+                                }),
+               kNearlyAll);
 }
 
 }  // namespace ambrig

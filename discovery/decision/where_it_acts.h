@@ -1,7 +1,8 @@
 #pragma once
 /// Evidence for a further effect from the channels in which it acts. What the law of an earlier
 /// effect leaves in detail lies in that effect's channels; an effect of a single coil or sensor
-/// acts in others, and explains nearly all that is left there, however little that is of the whole.
+/// acts in others, and explains nearly all that is left there, however little that is of the whole;
+/// or it does in records that feel no earlier effect.
 #include "discovery/search/fit.h"
 
 namespace ambrig {

@@ -29,23 +29,21 @@ bool Turns(const Scenario& s) {
   return s.speed_free_from < s.duration;
 }
 
-/// A held rotor's record does not feel what acts on a free one only. Not so a delay of the
-/// set-points and what turns the surface under a sensor.
-bool Feels(const EffectInstance& e, bool clamped) {
-  const EffectDescription* d = FindEffect(e.name);
-  if (!clamped || !d || e.IsFormula()) return true;
-  const EffectNeeds& n = d->needs;
-  if (n.contact || n.free_speed) return false;
-  return !(n.levitation && !n.rotation && d->whole_periods.empty() &&
-           d->target != TargetKind::kPlaneOrRig);
-}
-
 bool FeelsParameter(const std::string& path, bool clamped, bool turns) {
   if (clamped && path.starts_with("rotor.")) return false;
   return turns || path != "rotor.inertia_polar";
 }
 
 }  // namespace
+
+bool Feels(const CaseRecord& record, const EffectInstance& e) {
+  const EffectDescription* d = FindEffect(e.name);
+  if (record.scenario.start != StartState::kClamped || !d || e.IsFormula()) return true;
+  const EffectNeeds& n = d->needs;
+  if (n.contact || n.free_speed) return false;
+  return !(n.levitation && !n.rotation && d->whole_periods.empty() &&
+           d->target != TargetKind::kPlaneOrRig);
+}
 
 std::string MemoKey(const RigParameters& rig, const CaseRecord& record, std::size_t index) {
   const bool clamped = record.scenario.start == StartState::kClamped,
@@ -58,7 +56,7 @@ std::string MemoKey(const RigParameters& rig, const CaseRecord& record, std::siz
     if (const double* value = ParameterAt(rig, t.path))
       if (FeelsParameter(t.path, clamped, turns)) Add(bytes, *value);
   for (const EffectInstance& e : rig.effects) {
-    if (!Feels(e, clamped)) continue;
+    if (!Feels(record, e)) continue;
     AddText(bytes, e.name);
     AddText(bytes, e.target);
     for (const double v : e.values) Add(bytes, v);

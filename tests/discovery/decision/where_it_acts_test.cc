@@ -63,6 +63,22 @@ TEST(ShareWhereItActs, UnseenRecordsMayContradict) {
                                   kPlainGain, false));
 }
 
+// A held rotor feels no bending: what the mode's law leaves in a record of the free one says
+// nothing of what is explained in those of the held one.
+TEST(ShareWhereItActs, RecordsThatFeelNoEarlierEffectDecideAlone) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  Case data = c.data;
+  data.records.back().scenario.start = StartState::kLevitated;
+  const CaseModel model(data);
+  FitResult before = WithErrors(c, {3, 4, 3, 4});
+  const FitResult after = WithErrors(c, {1, 4, 2.7, 4});
+  EXPECT_FALSE(ExplainsItsChannels(model, before, after, kPlainGain, false));
+  before.hypothesis.rig.effects = {MakeInstance(EffectNamed("bending-mode"), "rig")};
+  EXPECT_TRUE(ExplainsItsChannels(model, before, after, kPlainGain, false));
+  before.hypothesis.rig.effects = {LinearCase::Gain(1.1)};
+  EXPECT_FALSE(ExplainsItsChannels(model, before, after, kPlainGain, false));
+}
+
 // A run-out that takes what a coupling's law leaves in the fitted records makes an error in the
 // unseen one, elsewhere than in its own channels.
 TEST(ShareWhereItActs, WhatMakesUnseenRecordsWorseIsNoEffect) {
