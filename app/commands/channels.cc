@@ -80,6 +80,11 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
                          {"least_magnitude", FiniteOrNull(e.least)},
                          {"most_magnitude", FiniteOrNull(e.most)}});
   }
+  for (const MeasuredCoherence& c : f.coherence) {
+    const Extent e = ExtentOf(c.values);
+    fmt::print("    {:<24} {:<8} {:>12} to {:>12} (coherence)\n", c.name, "", FigureText(e.least),
+               FigureText(e.most));
+  }
   nlohmann::ordered_json out = {{"points", f.points()}};
   if (axis) out["from"] = f.frequency.front();
   if (axis) out["to"] = f.frequency.back();

@@ -58,14 +58,15 @@ std::vector<std::size_t> NewRows(const double* measured, std::size_t count) {
   return rows;
 }
 
-/// White noise of a - b in every target, by channel.
+/// White noise of a - b in every target over time, by channel. Points stand over their own sd.
 template <class Chosen>
 ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
                      const std::vector<double>& b, const Chosen& chosen) {
   ByChannel out;
   for (const Target& t : model.targets()) {
-    const std::string& channel = model.data().records[t.record].data.channels[t.channel].name;
-    if (!chosen(channel)) continue;
+    const CaseRecord& record = model.data().records[t.record];
+    const std::string& channel = record.data.channels[t.channel].name;
+    if (!OverTime(record) || !chosen(channel)) continue;
     std::vector<double> error;
     std::vector<char> ok;
     for (const std::size_t k : NewRows(model.measured().data() + t.first, t.count)) {
@@ -77,11 +78,12 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
   return out;
 }
 
-/// rms of a - b of every channel in the record where it is least.
+/// rms of a - b of every channel in the record over time where it is least.
 std::map<std::string, double> QuietestErrors(const CaseModel& model, const std::vector<double>& a,
                                              const std::vector<double>& b) {
   std::map<std::string, double> out;
   for (const Target& t : model.targets()) {
+    if (!OverTime(model.data().records[t.record])) continue;
     double square = 0, rows = 0;
     for (std::size_t k = t.first; k < t.first + t.count; ++k) {
       if (!model.ok()[k]) continue;

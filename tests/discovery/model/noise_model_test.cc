@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "core/math/noise.h"
 #include "discovery/model/case_model.h"
+#include "tests/discovery/bench_case.h"
 #include "tests/discovery/linear_case.h"
 #include "tests/discovery/measured_case.h"
 
@@ -142,6 +144,20 @@ TEST(NoiseRemarks, NameWhatIsNotBelievedAndWhatWasNotStated) {
   EXPECT_THAT(all, ::testing::HasSubstr("A.y"));
   EXPECT_THAT(all, ::testing::Not(::testing::HasSubstr("A.x")));
   EXPECT_THAT(all, ::testing::HasSubstr("bus"));
+}
+
+// Points of a table stand over their own sd: they say nothing of the noise of a channel over time.
+TEST(EstimateNoise, OfRecordsOverTimeOnly) {
+  const testing::TemporaryFolder folder;
+  std::string text = "A.i1 [A],A.fx [N]\n";
+  for (int k = 0; k < 40; ++k)
+    text +=
+        fmt::format("{:.3f},{:.3f}\n", 0.04 * k, 300 * Normal(5, 1, static_cast<std::uint64_t>(k)));
+  testing::WriteBytes(folder.File("t.csv"), text);
+  const CaseModel model(testing::CaseOf(folder,
+                                        "noise = { \"A.fx\" = 0.3 }\n[[record]]\ndata = "
+                                        "\"t.csv\"\nkind = \"static\"\nsd = { \"A.fx\" = 1.0 }\n"));
+  EXPECT_EQ(EstimateNoise(model, Hypothesis::Base(model.data().rig)).Used("A.fx"), 0.3);
 }
 
 }  // namespace
