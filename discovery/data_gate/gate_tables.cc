@@ -80,8 +80,8 @@ struct TableFactor {
 /// too may be the machine's doing: then only a sign or a prefix is.
 TableFactor FactorOf(const OutputColumn& c, bool alone) {
   constexpr double kMostOfMachine = 1.6, kNear = 0.05;
-  static constexpr std::array kPrefixes = {-1.0, 1e3,  1e-3,  // grams for newtons
-                                           1e6,  1e-6, 1e3 / 9.80665};
+  constexpr double kGrams = 1e3 / 9.80665;  // for newtons
+  static constexpr std::array kPrefixes = {-1.0, 1e3, 1e-3, 1e6, 1e-6, kGrams};
   static constexpr std::array kOther = {9.80665, 1 / 9.80665, 2.0, 0.5};
   TableFactor best{1, kLeftOfTable};
   const auto attempt = [&](double factor, double most) {

@@ -60,6 +60,7 @@ ResponsePredictor::Split ResponsePredictor::SplitOf(const RigParameters& rig) co
   Split out{rig, true};
   out.linear.effects.clear();
   for (const EffectInstance& e : rig.effects) {
+    // what adds to readings is in no response
     if (e.IsNull() || (!e.IsFormula() && EffectNamed(e.name).adds_signal)) continue;
     const std::string key = e.name + " " + e.target + " " + e.label;
     std::unique_lock lock(mutex_);

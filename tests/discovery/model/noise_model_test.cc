@@ -154,10 +154,11 @@ TEST(EstimateNoise, OfRecordsOverTimeOnly) {
     text +=
         fmt::format("{:.3f},{:.3f}\n", 0.04 * k, 300 * Normal(5, 1, static_cast<std::uint64_t>(k)));
   testing::WriteBytes(folder.File("t.csv"), text);
-  const CaseModel model(testing::CaseOf(folder,
-                                        "noise = { \"A.fx\" = 0.3 }\n[[record]]\ndata = "
-                                        "\"t.csv\"\nkind = \"static\"\nsd = { \"A.fx\" = 1.0 }\n"));
-  EXPECT_EQ(EstimateNoise(model, Hypothesis::Base(model.data().rig)).Used("A.fx"), 0.3);
+  const Case c = testing::CaseOf(folder,
+                                 "noise = { \"A.fx\" = 0.3 }\n[[record]]\ndata = \"t.csv\"\n"
+                                 "kind = \"static\"\nsd = { \"A.fx\" = 1.0 }\n");
+  const CaseModel model(c);
+  EXPECT_EQ(EstimateNoise(model, Hypothesis::Base(c.rig)).Used("A.fx"), 0.3);
 }
 
 }  // namespace
