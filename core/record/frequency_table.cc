@@ -164,6 +164,13 @@ Measurement ResponsesOfTable(const TextTable& table, const std::string& path) {
   return out;
 }
 
+void CheckFrequencies(const std::vector<double>& f, const std::string& where) {
+  for (std::size_t k = 0; k < f.size(); ++k)
+    if (!std::isfinite(f[k]) || f[k] < 0 || (k > 0 && f[k] <= f[k - 1]))
+      throw InputError(where + ": frequency " + std::to_string(k + 1) + " = " + NumberText(f[k]) +
+                       " Hz, allowed: finite, not negative, increasing");
+}
+
 void CheckResponses(FrequencyResponses& responses, const std::string& where) {
   std::vector<std::string> names;
   for (MeasuredResponse& r : responses.responses) {
@@ -185,10 +192,7 @@ void CheckResponses(FrequencyResponses& responses, const std::string& where) {
   if (!f.empty() && f.size() != responses.points())
     throw InputError(where + ": " + std::to_string(f.size()) + " frequencies, " +
                      std::to_string(responses.points()) + " points");
-  for (std::size_t k = 0; k < f.size(); ++k)
-    if (!std::isfinite(f[k]) || f[k] < 0 || (k > 0 && f[k] <= f[k - 1]))
-      throw InputError(where + ": frequency " + std::to_string(k + 1) + " = " + NumberText(f[k]) +
-                       " Hz, allowed: finite, not negative, increasing");
+  CheckFrequencies(f, where);
 }
 
 }  // namespace ambrig

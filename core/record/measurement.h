@@ -34,6 +34,9 @@ struct Measurement {
   FrequencyResponses frequency = {};
 };
 
+/// Frequencies are finite, not negative, and increase. @throws InputError starting with `where`
+void CheckFrequencies(const std::vector<double>& frequencies, const std::string& where);
+
 /// Equal lengths, frequencies that increase; names and units as UTF-8.
 /// @throws InputError starting with `where`
 void CheckResponses(FrequencyResponses& responses, const std::string& where);

@@ -30,13 +30,13 @@ std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<d
                                      const Hypothesis& h, std::size_t r) {
   std::vector<DataFault> out;
   if (!OverTime(model.data().records[r])) {
-    if (model.data().records[r].kind == RecordKind::kFrf)
+    if (model.data().records[r].kind == RecordKind::kFrf) {
       CheckResponses(model, predicted, h, r, out);
-    else
-      CheckTable(model, predicted, h, r, out);
+      return out;
+    }
+    CheckTable(model, predicted, h, r, out);
     // a column in a wrong unit holds values that cannot be, too
-    if (model.data().records[r].kind == RecordKind::kStatic && out.empty())
-      CheckTableRange(model, predicted, r, out);
+    if (out.empty()) CheckTableRange(model, predicted, r, out);
     return out;
   }
   std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);

@@ -70,11 +70,10 @@ void CheckConstantColumns(const CaseModel& model, std::size_t record,
     const auto c = std::ranges::find(columns, q.channel, &GateColumn::name);
     if (!q.use && q.verdict.starts_with("empty"))
       TellUseless(r, q.channel, "lost", kEmpty, out);
-    else if (!q.use && q.verdict.starts_with("stuck") && r.scenario.start != StartState::kClamped)
-      TellUseless(r, q.channel, y.front() == 0 ? "lost" : "freeze", kWholeColumn, out);
     else if (q.use && IsDeadBus(model, r, k))
       TellUseless(r, q.channel, "lost", kWholeColumn, out);
-    else if (q.use && c != columns.end() && IsStuckReading(r, k, *c))
+    else if (q.use ? c != columns.end() && IsStuckReading(r, k, *c)
+                   : q.verdict.starts_with("stuck") && r.scenario.start != StartState::kClamped)
       TellUseless(r, q.channel, y.front() == 0 ? "lost" : "freeze", kWholeColumn, out);
     else
       continue;

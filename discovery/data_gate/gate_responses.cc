@@ -17,6 +17,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kGrossOfResponse = 0.25;  // relative error, whatever the noise
+constexpr double kLeftOfRecord =
+    0.15;  // of the relative error, that other frequencies or axes leave
 constexpr std::size_t kFewestPoints = 6;
 constexpr double kLeastRelativeSd = 1e-3;  // so that no point decides alone
 
@@ -118,43 +120,43 @@ std::vector<GateResponse> PredictedResponses(const CaseModel& model, const Hypot
   return out;
 }
 
-/// The record with its response `index` alone, as if that were of another output.
-CaseRecord WithOutput(const CaseRecord& r, std::size_t index, const ResponsePoint& output) {
+/// The record with its response `index` alone, once for every other axis that could be its output.
+CaseRecord WithOtherAxes(const CaseRecord& r, std::size_t index, const RigParameters& rig) {
+  const RigResponse& from = r.responses.responses[index];
   CaseRecord out = r;
-  const auto keep = [](auto& list, std::size_t first, std::size_t count) {
-    list.erase(list.begin() + static_cast<std::ptrdiff_t>(first + count), list.end());
-    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first));
-  };
-  keep(out.responses.responses, index, 1);
-  keep(out.data.channels, 2 * index, 2);
-  keep(out.quality, 2 * index, 2);
-  out.responses.responses[0].output = output;
+  out.responses.responses.clear();
+  out.data.channels.clear();
+  out.quality.clear();
+  if (!from.output.name.starts_with(from.output.axis)) return out;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& axis : b.Axes()) {
+      const auto other =
+          ParseResponsePoint(rig, axis + from.output.name.substr(from.output.axis.size()));
+      if (axis == from.output.axis || !other || other->kind != from.output.kind) continue;
+      out.responses.responses.push_back(from);
+      out.responses.responses.back().output = *other;
+      for (const std::size_t part : {2 * index, 2 * index + 1}) {
+        out.data.channels.push_back(r.data.channels[part]);
+        out.quality.push_back(r.quality[part]);
+      }
+    }
   return out;
 }
 
 /// The same of another axis: a cable at the wrong input of the analyser. `shown` is that response.
 ResponseMistake OtherAxisOf(const CaseModel& model, const Hypothesis& h, std::size_t record,
                             const GateResponse& r, RigResponse* shown) {
-  constexpr double kLeft = 0.15;
-  const CaseRecord& from = model.data().records[record];
-  const ResponsePoint& output = from.responses.responses[r.index].output;
-  const double before = RelativeError(r, r.expected);
+  const CaseRecord others = WithOtherAxes(model.data().records[record], r.index, model.data().rig);
   ResponseMistake best;
-  best.left = kLeft;
-  for (const BearingParameters& b : model.data().rig.bearings)
-    for (const std::string& axis : b.Axes()) {
-      if (axis == output.axis || !output.name.starts_with(output.axis)) continue;
-      const auto other =
-          ParseResponsePoint(model.data().rig, axis + output.name.substr(output.axis.size()));
-      if (!other || other->kind != output.kind) continue;
-      const CaseRecord one = WithOutput(from, r.index, *other);
-      const std::vector<GateResponse> as = PredictedResponses(model, h, one);
-      if (as.empty() || as[0].frequency.size() < kFewestPoints) continue;
-      const double left = RelativeError(as[0], as[0].expected) / before;
-      if (left >= best.left) continue;
-      *shown = one.responses.responses[0];
-      best = {"swap", shown->name(), 1, 0, left};
-    }
+  best.left = kLeftOfRecord;
+  if (others.responses.responses.empty()) return best;
+  const double before = RelativeError(r, r.expected);
+  for (const GateResponse& as : PredictedResponses(model, h, others)) {
+    const double left = RelativeError(as, as.expected) / before;
+    if (as.frequency.size() < kFewestPoints || left >= best.left) continue;
+    *shown = others.responses.responses[as.index];
+    best = {"swap", shown->name(), 1, 0, left};
+  }
   return best;
 }
 
@@ -171,8 +173,7 @@ struct FrequencyMistake {
 };
 FrequencyMistake FrequenciesOf(const CaseModel& model, const Hypothesis& h, std::size_t record,
                                const std::vector<GateResponse>& all) {
-  constexpr double kLeft = 0.15;
-  FrequencyMistake best{1, kLeft};
+  FrequencyMistake best{1, kLeftOfRecord};
   const double before = ErrorOfAll(all);
   for (const double factor : {2 * kPi, 1 / (2 * kPi), 60.0, 1 / 60.0, 1e3, 1e-3}) {
     const std::vector<GateResponse> other = PredictedResponses(

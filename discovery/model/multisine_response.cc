@@ -232,9 +232,11 @@ std::optional<MultisineMeasurement::Spectra> MultisineMeasurement::Run(
     options.record_rate = RecordRateFor(rig, s.record_rate);
     options.watch = false;
     options.nominal = &nominal;
-    if (s.start == StartState::kLevitated) options.lost_after = 0.01;
-    // what moves by itself is in both runs of a turning shaft
-    if (s.start == StartState::kLevitated && opposite_plan_) options.warm_up = kShortWarmUp;
+    if (s.start == StartState::kLevitated) {
+      options.lost_after = 0.01;
+      // what moves by itself is in both runs of a turning shaft
+      if (opposite_plan_) options.warm_up = kShortWarmUp;
+    }
     return SwitchingEngine(rig, s, options).Run().record;
   };
   Record forth, back;

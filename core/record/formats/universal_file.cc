@@ -120,16 +120,13 @@ std::string ResponseUnit(const UniversalFunction& f) {
   return whole ? f.ordinate.unit : f.ordinate.unit + "/" + f.denominator.unit;
 }
 
-/// All frequencies of functions, each once. @throws InputError where those of one do not increase.
+/// All frequencies of functions, each once.
 std::vector<double> AllFrequencies(const std::vector<const UniversalFunction*>& functions,
-                                   const std::vector<std::string>& names, const std::string& path) {
+                                   const std::string& path) {
   std::vector<double> all;
-  for (std::size_t k = 0; k < functions.size(); ++k) {
-    const std::vector<double> axis = FrequenciesOf(*functions[k]);
-    for (std::size_t n = 1; n < axis.size(); ++n)
-      if (!(axis[n] > axis[n - 1]))
-        throw InputError(path + ": frequency " + std::to_string(n + 1) + " of " + names[k] + " = " +
-                         std::to_string(axis[n]) + " Hz, allowed: increasing");
+  for (const UniversalFunction* f : functions) {
+    const std::vector<double> axis = FrequenciesOf(*f);
+    CheckFrequencies(axis, path);
     all.insert(all.end(), axis.begin(), axis.end());
   }
   std::ranges::sort(all);
@@ -159,7 +156,7 @@ FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functi
                              const std::string& path) {
   FrequencyResponses out;
   const std::vector<std::string> names = FunctionNames(functions);
-  out.frequency = AllFrequencies(functions, names, path);
+  out.frequency = AllFrequencies(functions, path);
   for (std::size_t k = 0; k < functions.size(); ++k) {
     const UniversalFunction& f = *functions[k];
     std::vector<std::complex<double>> values;

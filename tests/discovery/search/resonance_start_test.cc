@@ -19,6 +19,7 @@ namespace ambrig {
 namespace {
 
 using testing::BaseOf;
+using testing::Measure;
 using testing::ResonanceStartTest;
 
 std::vector<ProbeGroup> GridOf(const std::vector<double>& frequencies) {
@@ -42,12 +43,7 @@ FitResult BesideNothing(FitResult fit) {
 }
 
 TEST_F(ResonanceStartTest, DampingIsHeldUntilTheFrequencyIsFound) {
-  CaseModel model(data_, 4);
-  const FitResult base = Simulated(model);
-  Candidate candidate;
-  candidate.narrow = true;
-  candidate.effect = BaseOf(166, 39, 0.05);
-  const FitResult fit = FitBriefly(model, base, candidate, 1e5);
+  const FitResult fit = FittedFrom(BaseOf(166, 39, 0.05));
   ASSERT_TRUE(fit.converged);
   const EffectInstance found = FittedEffect(fit, 0);
   EXPECT_NEAR(found.Value("frequency"), 35, 0.4);
@@ -217,21 +213,9 @@ TEST_F(ResonanceStartTest, IsSoughtWhereOtherEffectsLeaveTheMotionOpen) {
   gain.Set("gain", 1 + std::sqrt(0.01 * 0.2));  // its probe: the linear step is exact there
   for (const bool resonance : {false, true}) {
     Case c = data_;
-    if (!resonance) {
-      CaseModel empty(c);
-      Hypothesis truth = Hypothesis::Base(c.rig);
-      truth.AddEffect(gain);
-      const Record measured = empty.Simulated(truth, 0, false, 1);
-      for (Channel& ch : c.records[0].data.channels)
-        if (const Channel* from = measured.Find(ch.name))
-          ch.samples.assign(from->samples.begin(),
-                            from->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
-    }
+    if (!resonance) Measure(c, gain);
     CaseModel model(c, 8);
-    for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
-    FitOptions look;
-    look.iterations = 0;
-    FitResult base = Fit(model, Hypothesis::Base(c.rig), look);
+    FitResult base = Simulated(model);
     base.jacobian = Eigen::MatrixXd(static_cast<Eigen::Index>(model.size()), 0);
     bool sought = false;
     ScreenOptions options;
