@@ -14,7 +14,7 @@
 namespace ambrig {
 
 /// Datasets of any number type; those in groups are named with dots ("A/x" is "A.x"); a dataset t
-/// or time serves as the time base. NaN is kept. What is not a vector of numbers is left out with a
+/// or time serves as the time base, single numbers `rate` and `start` for the attributes. NaN is kept. What is not a vector of numbers is left out with a
 /// note.
 /// @throws InputError, one line that names the file: not HDF5, damaged, no rate, unequal lengths
 /// ...
@@ -33,6 +33,9 @@ void WriteHdf5Groups(const std::vector<std::pair<std::string, Record>>& records,
 
 /// The record of one such group. @throws InputError, also when there is no such group
 Record ReadHdf5Group(const std::string& path, const std::string& group);
+
+/// Whether a dataset or group in the file's root carries this attribute. @throws InputError
+bool HasObjectWith(const std::string& attribute, const std::string& path);
 
 /// Tries `read` of the file in a copy of the process first: HDF5 1.10 believes what an attribute
 /// says of its own size and place, and a damaged one crashes it. Under Hdf5Mutex. @throws

@@ -56,6 +56,11 @@ std::optional<hsize_t> VectorRows(hid_t dataset) {
   return dims[0] * dims[1];
 }
 
+bool IsSingle(hid_t dataset) {
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  return H5Sget_simple_extent_npoints(space) == 1;
+}
+
 /// External storage and virtual datasets name files anywhere on the disk.
 bool RefersElsewhere(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
@@ -114,8 +119,14 @@ class Hdf5Traversal {
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type);
     const std::optional<hsize_t> rows = VectorRows(dataset);
-    if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || !rows)
-      return Note(name + " is not a vector of numbers, left out");
+    const bool number = kind == H5T_FLOAT || kind == H5T_INTEGER;
+    if (number && (name == "rate" || name == "start") && IsSingle(dataset)) {
+      double* to = name == "rate" ? &record_.rate : &record_.start;
+      if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0)
+        Fail(path_, name + " cannot be read");
+      return;
+    }
+    if (!number || !rows) return Note(name + " is not a vector of numbers, left out");
     if (RefersElsewhere(dataset)) return Note(name + " is stored in another file, left out");
     if (*rows > kMaxRows) throw InputError(path_ + ": channel " + name + " has too many rows");
     Channel channel{name, ReadTextAttribute(dataset, "unit").value_or(""),
@@ -160,6 +171,19 @@ Record ReadGroup(const std::string& path, const std::string& name) {
   return record;
 }
 
+/// Whether something in the root group of the file carries this attribute.
+bool SomeObjectCarries(const std::string& path, const std::string& attribute) {
+  const Handle file = OpenForReading(path), root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
+  H5G_info_t info = {};
+  if (!root.usable() || H5Gget_info(root, &info) < 0) Fail(path, "damaged root group");
+  for (hsize_t k = 0; k < info.nlinks; ++k) {
+    const Handle object(H5Oopen_by_idx(root, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT),
+                        H5Oclose);
+    if (object.usable() && H5Aexists(object, attribute.c_str()) > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void RefuseWhatCrashesHdf5(const std::string& path, const std::function<void()>& read) {
@@ -170,6 +194,13 @@ void RefuseWhatCrashesHdf5(const std::string& path, const std::function<void()>&
 std::mutex& Hdf5Mutex() {
   static std::mutex mutex;
   return mutex;
+}
+
+bool HasObjectWith(const std::string& attribute, const std::string& path) {
+  const Library library;
+  const auto look = [&] { return SomeObjectCarries(path, attribute); };
+  RefuseWhatCrashesHdf5(path, look);
+  return look();
 }
 
 Record ReadHdf5(const std::string& path) { return ReadHdf5Group(path, "/"); }

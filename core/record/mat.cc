@@ -184,12 +184,21 @@ class MatReader {
 /// version 5, 0x0200 is HDF5.
 bool IsVersion73(const std::string& head) { return head[124] == 2 || head[125] == 2; }
 
+/// A file with the head of version 7.3 by a program that gives its datasets no MATLAB class: plain
+/// HDF5 to everyone but MATLAB.
+Measurement ReadWithoutClasses(const std::string& path) {
+  Measurement out{ReadHdf5(path), {}};
+  for (Channel& c : out.record.channels) c.name = ChannelName(c.name);
+  return out;
+}
+
 }  // namespace
 
 Measurement ReadMatMeasurement(const std::string& path) try {
   const std::string head = ReadFile(path, 128);
   if (head.size() < 128) throw InputError(path + ": not a MAT file");
   const auto read = [&] { return MatReader(path).Read(); };
+  if (IsVersion73(head) && !HasObjectWith("MATLAB_class", path)) return ReadWithoutClasses(path);
   Measurement m;
   {
     const std::scoped_lock<std::mutex> lock(Hdf5Mutex());

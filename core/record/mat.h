@@ -12,7 +12,8 @@
 
 namespace ambrig {
 
-/// v5 (also compressed) and v7.3. Other variables are left out with a note. Complex
+/// v5 (also compressed) and v7.3, also by programs that write no MATLAB classes (h5py; then vectors
+/// over time only). Other variables are left out with a note. Complex
 /// vectors are frequency responses on the axis `f`, `freq` or `frequency` [Hz], a real vector
 /// `coherence` or NAME_coherence as long as they are is their coherence; the file then holds no
 /// record over time.

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "core/base/errors.h"
+#include "core/record/hdf5.h"
 #include "core/record/read_record.h"
 #include "tests/core/temporary_folder.h"
 
@@ -128,6 +129,24 @@ TEST(Mat, VectorOfTimesInsteadOfARate) {
   EXPECT_EQ(r.rate, 2.0);
   EXPECT_EQ(r.start, 1.0);
   EXPECT_EQ(r.channels.size(), 1u);
+}
+
+// As h5py writes it: the head of version 7.3 before plain HDF5.
+TEST(Mat, Version73WithoutClassesOfMatlab) {
+  const TemporaryFolder folder;
+  WriteHdf5({1000.0, 0.5, {{"A_x", "um", {1, 2, 3}}, {"bus", "V", {4, 5, 6}}}},
+            folder.File("a.h5"));
+  std::string head = "MATLAB 7.3 MAT-file, Platform: python";
+  head.resize(124, ' ');
+  head += std::string("\0\2IM", 4);
+  head.resize(512, '\0');
+  WriteBytes(folder.File("a.mat"), head + ReadBytes(folder.File("a.h5")));
+  const Record r = ReadMat(folder.File("a.mat"));
+  EXPECT_EQ(r.rate, 1000.0);
+  EXPECT_EQ(r.start, 0.5);
+  ASSERT_NE(r.Find("A.x"), nullptr);
+  EXPECT_EQ(r.Find("A.x")->unit, "um");
+  EXPECT_THAT(r.Find("bus")->samples, ElementsAre(4, 5, 6));
 }
 
 // Written by the library's own split form: two arrays of one variable.
