@@ -28,6 +28,7 @@ class ClosedLoop {
   double Ts() const { return open_.Ts(); }
   double speed() const { return plant().speed; }
   const LinearPlant& plant() const { return open_.plant(); }
+  const LoopPlant& open() const { return open_; }
   Eigen::Index states() const { return Phi.rows(); }
   Eigen::Index axes() const { return open_.axes(); }
 

@@ -1,7 +1,6 @@
 #include "analysis/transfer_function.h"
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -23,12 +22,6 @@ TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop
   for (const PlantCoil& c : loop.plant().coils)
     coils_.push_back(
         ChannelId{ChannelKind::kCoilCurrent, point.rig().bearings[c.bearing].name, c.lane}.name());
-  const Eigen::ComplexSchur<MatrixXcd> schur(MatrixXcd(loop.Phi.cast<Complex>()));
-  Require(schur.info() == Eigen::Success, "converged eigenvalues of the closed loop");
-  T_ = schur.matrixT();
-  U_ = schur.matrixU();
-  eigenvalues_ = T_.diagonal();
-  Gamma_T_ = U_.adjoint() * loop.Gamma.cast<Complex>();
   const Index m = loop.plant().m();
   plane_rows_.resize(2 * static_cast<Index>(point.rig().stations.size()), m);
   for (const ShaftPlane& p : point.rig().stations) {
@@ -39,22 +32,17 @@ TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(loop.C.rows() + plane_rows_.rows(), loop.states());
   C.topRows(loop.C.rows()) = loop.C;
   C.bottomLeftCorner(plane_rows_.rows(), m) = plane_rows_ * loop.scale().head(m).asDiagonal();
-  C_U_ = C.cast<Complex>() * U_;
+  system_ = SampledSystem(loop.Phi, loop.Gamma, C);
   D_.setZero(C.rows(), loop.D.cols());
   D_.topRows(loop.D.rows()) = loop.D.cast<Complex>();
 }
 
 MatrixXcd TransferFunction::operator()(double omega) const {
-  MatrixXcd shifted = -T_;
-  shifted.diagonal().array() += std::polar(1.0, omega * loop_.Ts());
-  return C_U_ * shifted.triangularView<Eigen::Upper>().solve(Gamma_T_) + D_;
+  return system_.At(std::polar(1.0, omega * loop_.Ts())) + D_;
 }
 
 VectorXcd TransferFunction::Harmonic(const HarmonicInput& in) const {
-  MatrixXcd shifted = -T_;
-  shifted.diagonal().array() += std::polar(1.0, in.omega * loop_.Ts());
-  const VectorXcd disturbance = U_.adjoint() * loop_.Disturbance(in);
-  return C_U_ * shifted.triangularView<Eigen::Upper>().solve(disturbance);
+  return system_.Under(std::polar(1.0, in.omega * loop_.Ts()), loop_.Disturbance(in));
 }
 
 VectorXcd TransferFunction::LoadOn(Index axis) const {

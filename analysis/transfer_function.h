@@ -11,9 +11,8 @@
 ///             NAME.x [m]
 ///           shaft at a named plane
 ///
-/// The sampled system is triangularised once (complex Schur, Phi = U T U^H), a frequency then costs
-/// O(N²): H = C U (e^{iωTs} - T)⁻¹ U^H Gamma + D.
 #include "analysis/closed_loop.h"
+#include "analysis/sampled_system.h"
 
 namespace ambrig {
 
@@ -26,7 +25,7 @@ class TransferFunction {
   Eigen::MatrixXcd operator()(double omega) const;
   /// Outputs under a continuous harmonic force on the rotor.
   Eigen::VectorXcd Harmonic(const HarmonicInput& input) const;
-  const Eigen::VectorXcd& eigenvalues() const { return eigenvalues_; }  // z
+  const Eigen::VectorXcd& eigenvalues() const { return system_.eigenvalues(); }  // z
   /// Generalised unit force on the kept coordinates along an axis at its bearing's plane; from
   /// axes() on along x, y of the named planes.
   Eigen::VectorXcd LoadOn(Eigen::Index axis) const;
@@ -50,8 +49,8 @@ class TransferFunction {
   const ClosedLoop& loop_;
   std::vector<std::string> axes_, coils_, planes_;  // names: "A.x", "A.i1", "disk.x"
   Eigen::MatrixXd plane_rows_;                      // (planes x m) shaft there
-  Eigen::VectorXcd eigenvalues_;
-  Eigen::MatrixXcd T_, U_, Gamma_T_, C_U_, D_;
+  SampledSystem system_;
+  Eigen::MatrixXcd D_;
 };
 
 /// From `low` to `high` Hz, `count` in equal ratios, and around every lightly damped pole closer.

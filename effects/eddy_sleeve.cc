@@ -39,6 +39,12 @@ class SleeveLaw final : public FluxLaw {
 
   void Steady(const Lane&, Lane*, Lane*) const override {}
 
+  std::optional<LinearDrop> LinearAt(const Lane&) const override {
+    LinearDrop out;
+    out.damping = per_rate_;
+    return out;
+  }
+
   void Commit(const Lane& phi) override { phi_ = phi; }
 
   void Settle(const Lane& phi) override { phi_ = phi; }

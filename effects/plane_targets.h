@@ -51,6 +51,9 @@ class StagedMap : public ReadingMap {
  public:
   explicit StagedMap(ReadingStage stage) : stage_(stage) {}
   ReadingStage stage() const { return stage_; }
+  bool signal() const final {
+    return stage_ == ReadingStage::kSurface || stage_ == ReadingStage::kPickUp;
+  }
 
  private:
   ReadingStage stage_;
@@ -58,12 +61,18 @@ class StagedMap : public ReadingMap {
 
 void InsertMap(PositionSensor& sensor, std::unique_ptr<StagedMap> map);
 
-/// Wraps a function (state, x*, y*) as the map of one stage.
+/// Wraps a function (state, x*, y*) as the map of one stage; a lag has a member `tau` [s].
 template <class F>
 void AddMap(PositionSensor& sensor, ReadingStage stage, F f) {
   struct Wrapped final : StagedMap {
     Wrapped(ReadingStage s, F function) : StagedMap(s), f(std::move(function)) {}
     void Map(const MotionState& state, double* x, double* y) override { f(state, x, y); }
+    double lag() const override {
+      if constexpr (requires { f.tau; })
+        return f.tau;
+      else
+        return 0;
+    }
     F f;
   };
   InsertMap(sensor, std::make_unique<Wrapped>(stage, std::move(f)));

@@ -135,6 +135,19 @@ class RelaxationLaw final : public FluxLaw {
       (*slope)[j] += relaxations_.rest;
     }
   }
+  // e_k = w_k (φ - z_k)
+  std::optional<LinearDrop> LinearAt(const Lane& /*phi*/) const override {
+    LinearDrop out;
+    double at_once = relaxations_.rest;
+    for (int k = 0; k < kPoles; ++k) {
+      if (relaxations_.weight[k] == 0) continue;
+      out.relaxations.push_back({relaxations_.pole[k], relaxations_.weight[k]});
+      at_once += relaxations_.weight[k];
+    }
+    for (double& slope : out.slope.v) slope = at_once;
+    out.damping = relaxations_.tail;
+    return out;
+  }
   void Commit(const Lane& phi) override { kCommit(state_, phi); }
   int RunSamples(const LawLoop& loop, int k, int count) override {
     return kLoop(state_, loop, k, count);

@@ -7,6 +7,9 @@
 /// Within one step of h seconds the flux of a lane runs linearly from its committed value to φ.
 /// The two windings of a thrust side share one core: they see the same flux, so the law holds the
 /// same state twice and the core's MMF is counted once.
+#include <optional>
+#include <vector>
+
 #include "actuators/magnetics/lane.h"
 #include "actuators/magnetics/stator_loop.h"
 
@@ -20,9 +23,24 @@ struct LawLoop {
   double h;
 };
 
+/// A law for small changes of a flux that has stood:
+///
+///   δM = slope δφ - Σ w_k δz_k + damping δφ',   z_k' = p_k (δφ - δz_k)
+struct LinearDrop {
+  struct Relaxation {
+    double rate, weight;  // p_k [rad/s], w_k [A/Wb]
+  };
+  Lane slope;                           // of a flux that changes at once [A/Wb]
+  std::vector<Relaxation> relaxations;  // alike in all lanes
+  double damping = 0;                   // [A s/Wb]
+};
+
 class FluxLaw {
  public:
   virtual ~FluxLaw() = default;
+  /// The law near a flux that has stood; nothing where small changes have no linear law
+  /// (hysteresis).
+  virtual std::optional<LinearDrop> LinearAt(const Lane& /*phi*/) const { return std::nullopt; }
   /// Whether Drop is linear in the flux, so that one round of Newton is exact.
   virtual bool linear() const { return false; }
   /// Length of the steps to come [s].

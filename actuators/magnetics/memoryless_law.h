@@ -7,6 +7,12 @@ namespace ambrig {
 
 class MemorylessLaw : public FluxLaw {
  public:
+  std::optional<LinearDrop> LinearAt(const Lane& phi) const final {
+    LinearDrop out;
+    Lane drop{};
+    Drop(phi, &drop, &out.slope);
+    return out;
+  }
   void Steady(const Lane& phi, Lane* drop, Lane* slope) const final { Drop(phi, drop, slope); }
   void Commit(const Lane& /*phi*/) final {}
   void Settle(const Lane& /*phi*/) final {}

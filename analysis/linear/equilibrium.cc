@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "actuators/magnetics/coil_network.h"
+#include "analysis/linear/linear_sensor.h"
+#include "core/base/index.h"
 #include "core/math/kinsol.h"
 #include "rig/rig_assembly.h"
 
@@ -18,13 +20,19 @@ constexpr double kNoLever = 1e-9;  // of a force on a coordinate [-, m]: zero bu
 struct Balance {
   const Plant& plant;
   const std::vector<BearingControl>& control;
+  const bool true_parts, voltage_mode;
   std::vector<std::unique_ptr<CoilNetwork>> networks;  // nullptr: of any stator
   std::vector<std::size_t> first_axis;                 // per bearing
   std::size_t axes = 0, dof = 0;
   std::vector<bool> fixed;  // coordinates that no force moves: held at zero
 
-  Balance(const Plant& p, const std::vector<BearingControl>& c)
-      : plant(p), control(c), dof(static_cast<std::size_t>(p.rotor.dof())), fixed(dof, false) {
+  Balance(const Plant& p, const std::vector<BearingControl>& c, EquilibriumOf parts, bool voltage)
+      : plant(p),
+        control(c),
+        true_parts(parts == EquilibriumOf::kTrueParts),
+        voltage_mode(voltage),
+        dof(static_cast<std::size_t>(p.rotor.dof())),
+        fixed(dof, false) {
     for (const BearingPlant& b : plant.bearings) {
       networks.push_back(b.lanes.network ? nullptr : std::make_unique<CoilNetwork>(b.lanes));
       first_axis.push_back(axes);
@@ -51,6 +59,45 @@ struct Balance {
     return control[k].map.SetPoints(f[0], AxesOf(plant.bearings[k]) > 1 ? f[1] : 0);
   }
 
+  CoilVector Carried(std::size_t k, const double* force) const {
+    CoilVector out = SetPoints(k, force);
+    if (true_parts && !voltage_mode)
+      for (int j = 0; j < control[k].coils; ++j)
+        out[j] = CarriedCurrent(plant.bearings[k], j, out[j]);
+    return out;
+  }
+
+  /// Of bearing k with the shaft at (x, y) of its magnets [N].
+  PlanePoint Pull(std::size_t k, const CoilVector& current, double x, double y) const {
+    const StatorLanes& lanes = plant.bearings[k].lanes;
+    if (!networks[k]) {
+      const Eigen::Vector3d f =
+          lanes.network->Force({x, y, 0}, lanes.CountedCurrents(current.data()));
+      return {f.x(), f.y()};
+    }
+    PlanePoint f{};
+    if (true_parts && !lanes.laws.empty()) {
+      StatorLanes at = lanes;
+      Lane carried;
+      for (int j = 0; j < lanes.coils; ++j) carried[j] = current[j];
+      at.Settle(carried, x, y);
+      at.Force(x, y, &f.x, &f.y);
+      return f;
+    }
+    double lambda[kMaxWindings];
+    NetworkState n;
+    networks[k]->Linkages(current.data(), x, y, lambda);
+    networks[k]->Solve(lambda, x, y, n);
+    return {n.fx, n.fy};
+  }
+
+  PlanePoint Reading(const MotionState& s, const BearingPlant& b) const {
+    const PlanePoint at = plant.rotor.Position(s, b.sensor.map);
+    if (!true_parts) return at;
+    const Eigen::Vector2d reading = LineariseSensor(b.sensor, s, at.x, at.y).reading;
+    return {reading.x(), reading.y()};
+  }
+
   void Equations(const double* u, double* F) const {
     MotionState s;
     std::copy(u + axes, u + axes + dof, s.q.begin());
@@ -58,30 +105,17 @@ struct Balance {
     double stator_x = 0, stator_y = 0, torque = 0;
     for (std::size_t k = 0; k < plant.bearings.size(); ++k) {
       const BearingPlant& b = plant.bearings[k];
-      const auto set = SetPoints(k, u);
-      double lambda[kMaxWindings];
-      auto [x, y] = plant.rotor.Position(s, b.plane);
-      x -= b.offset_x;
-      y -= b.offset_y;
-      NetworkState n;
-      if (networks[k]) {
-        networks[k]->Linkages(set.data(), x, y, lambda);
-        networks[k]->Solve(lambda, x, y, n);
-      } else {
-        const Eigen::Vector3d f =
-            b.lanes.network->Force({x, y, 0}, b.lanes.CountedCurrents(set.data()));
-        n.fx = f.x();
-        n.fy = f.y();
-      }
-      b.plane.AddForce(n.fx, n.fy, Q);
+      const auto [x, y] = plant.rotor.Position(s, b.plane);
+      const PlanePoint f = Pull(k, Carried(k, u), x - b.offset_x, y - b.offset_y);
+      b.plane.AddForce(f.x, f.y, Q);
       if (b.thrust) continue;
-      stator_x += n.fx;
-      stator_y += n.fy;
+      stator_x += f.x;
+      stator_y += f.y;
     }
     plant.rotor.Accelerations(s, Q, stator_x, stator_y, a, &torque);
     for (std::size_t d = 0; d < dof; ++d) F[d] = fixed[d] ? s.q[d] : a[d];
     for (std::size_t k = 0; k < plant.bearings.size(); ++k) {
-      const PlanePoint reading = plant.rotor.Position(s, plant.bearings[k].sensor.map);
+      const PlanePoint reading = Reading(s, plant.bearings[k]);
       F[dof + first_axis[k]] = reading.x;
       if (AxesOf(plant.bearings[k]) > 1) F[dof + first_axis[k] + 1] = reading.y;
     }
@@ -94,9 +128,15 @@ std::size_t AxesOf(const BearingPlant& bearing) {
   return bearing.thrust || bearing.opposed ? 1 : 2;
 }
 
+double CarriedCurrent(const BearingPlant& bearing, int coil, double set_point) {
+  const CurrentSensor& sensor = bearing.current_sensor[AsSize(coil)];
+  const double current = (set_point - sensor.offset) / sensor.gain;
+  return bearing.lanes.unipolar ? std::max(current, 0.0) : current;
+}
+
 Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Plant& plant,
-                                 const std::vector<BearingControl>& control) {
-  const Balance balance(plant, control);
+                                 const std::vector<BearingControl>& control, EquilibriumOf parts) {
+  const Balance balance(plant, control, parts, rig.amplifier.voltage_mode);
   const std::size_t n = balance.axes + balance.dof;
   // Sizes that matter: the rotor's weight, a micrometre, the acceleration of gravity.
   double g = 0;

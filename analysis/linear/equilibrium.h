@@ -6,9 +6,8 @@
 ///   unknowns   f (one per controlled axis) [N], q (all coordinates) [m]
 ///   equations  reading_axis(q) = 0;  a_d(q, f) = 0 for every coordinate that a force can move
 ///
-/// Readings are the shaft's positions: offsets, gains and other maps of the sensors are not in
-/// them. At standstill: what turns with the shaft (unbalance) has no equilibrium. Where the axes do
-/// not hold every coordinate (one magnet on a bench) there is no unique one and `converged` is
+/// At standstill: what turns with the shaft (unbalance, run-out) has no equilibrium. Where the axes
+/// do not hold every coordinate (one magnet on a bench) there is no unique one and `converged` is
 /// false.
 #include <string>
 #include <vector>
@@ -33,8 +32,19 @@ struct Equilibrium {
 /// Controlled axes of a bearing: 2 of a radial one, else 1.
 std::size_t AxesOf(const BearingPlant& bearing);
 
+/// What of sensors and iron an equilibrium knows.
+enum class EquilibriumOf {
+  kIdealParts,  // readings are positions, coils carry their set-points, iron has no reluctance
+  kTrueParts    // maps of the position sensors, errors of the current sensors, laws of the iron
+};
+
+/// The current [A] at which the sensor of coil `coil` reads `set_point` [A].
+double CarriedCurrent(const BearingPlant& bearing, int coil, double set_point);
+
 /// `rig`: true values, for the first guess; `control`: the maps between forces and set-points.
+/// kTrueParts: the laws of the plant's iron are left as they settled last.
 Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Plant& plant,
-                                 const std::vector<BearingControl>& control);
+                                 const std::vector<BearingControl>& control,
+                                 EquilibriumOf parts = EquilibriumOf::kIdealParts);
 
 }  // namespace ambrig

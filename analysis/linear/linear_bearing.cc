@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "actuators/magnetics/coil_network.h"
 #include "core/base/index.h"
 #include "core/math/linear_equations.h"
 
@@ -10,20 +9,137 @@ namespace ambrig {
 
 namespace {
 
-/// Force of a change (dphi, dx, dy): f_p = Pull(g) φ²/2 along the pole, g' = -d.
-Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s,
-                            const NetworkRates& rate, double x, double y, double dx, double dy) {
-  Eigen::Vector2d out = Eigen::Vector2d::Zero();
-  const int per_pole = lanes.coupling == Coupling::kSides ? 2 : 1;
-  for (int j = 0; j < lanes.coils; j += per_pole) {
-    const Eigen::Vector2d d(lanes.direction_x[j], lanes.direction_y[j]);
-    const double g = lanes.gap_offset[j] - d.x() * x - d.y() * y, phi = s.phi[AsSize(j / per_pole)];
-    const double closing = d.x() * dx + d.y() * dy;
-    out += d * (lanes.reluctance.Pull(g) * phi * rate.phi[AsSize(j / per_pole)] -
-                0.5 * lanes.reluctance.PullSlope(g) * closing * phi * phi);
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+// of the relaxation that stands for a damping of the flux [rad/s]: far above every switching
+// frequency
+constexpr double kDampingRate = 6e6;
+
+/// Small changes of all laws of a bearing together; what has no linear law is left out.
+LinearDrop LinearIron(const StatorLanes& lanes) {
+  LinearDrop sum;
+  const auto add = [&](double slope, int j) { sum.slope[j] += slope; };
+  for (const FluxLaw* law : lanes.laws) {
+    const auto one = law->LinearAt(lanes.phi);
+    if (!one) continue;
+    std::vector<LinearDrop::Relaxation> relaxations = one->relaxations;
+    const double damping = one->damping * kDampingRate;
+    if (damping > 0) relaxations.push_back({kDampingRate, damping});
+    for (int j = 0; j < kLanes; ++j) add(one->slope[j] + damping, j);
+    sum.relaxations.insert(sum.relaxations.end(), relaxations.begin(), relaxations.end());
   }
-  return out;
+  return sum;
 }
+
+/// The circuit of poles with one or two windings each, differentiated where Settle has put it.
+/// Columns of all its matrices: linkages of the coils that carry, r, states of the iron.
+class LinearCircuit {
+ public:
+  LinearCircuit(const StatorLanes& lanes, const Eigen::Vector2d& r)
+      : lanes_(lanes), iron_(LinearIron(lanes)), r_(r) {
+    for (int j = 0; j < lanes.coils; ++j)
+      if (!lanes.open[AsSize(j)] && (!lanes.unipolar || lanes.i[j] > 0)) coils_.push_back(j);
+    const Index k = static_cast<Index>(iron_.relaxations.size());
+    states_ = k * Poles();
+    flux_ = FluxOfColumns();
+  }
+
+  LinearBearing Derivatives() const {
+    const Index n = Coils(), s = states_;
+    LinearBearing out;
+    out.coils = coils_;
+    out.current.resize(n);
+    out.resistance.resize(n);
+    MatrixXd I = MatrixXd::Zero(n, n + 2 + s);
+    for (Index k = 0; k < n; ++k) {
+      const int j = CoilAt(k);
+      out.current(k) = lanes_.i[j];
+      out.resistance(k) = lanes_.resistance[j];
+      I(k, k) = 1;
+      I.row(k) -= lanes_.n[j] * flux_.row(PoleOf(j));
+      I.row(k) /= lanes_.leakage[j];
+    }
+    out.I_lambda = I.leftCols(n);
+    out.I_r = I.middleCols(n, 2);
+    out.I_z = I.rightCols(s);
+    const MatrixXd F = ForceOfColumns();
+    out.F_lambda = F.leftCols(n);
+    out.F_r = F.middleCols(n, 2);
+    out.F_z = F.rightCols(s);
+    MatrixXd Z(s, n + 2 + s);
+    for (Index p = 0; p < Poles(); ++p)
+      for (Index k = 0; k < Relaxations(); ++k) {
+        const Index z = p * Relaxations() + k;
+        const double rate = iron_.relaxations[static_cast<std::size_t>(k)].rate;
+        Z.row(z) = rate * flux_.row(p);
+        Z(z, n + 2 + z) -= rate;
+      }
+    out.Z_lambda = Z.leftCols(n);
+    out.Z_r = Z.middleCols(n, 2);
+    out.Z_z = Z.rightCols(s);
+    return out;
+  }
+
+ private:
+  int PerPole() const { return lanes_.coupling == Coupling::kSides ? 2 : 1; }
+  Index Poles() const { return lanes_.coils / PerPole(); }
+  Index Coils() const { return static_cast<Index>(coils_.size()); }
+  Index Relaxations() const { return static_cast<Index>(iron_.relaxations.size()); }
+  Index PoleOf(int coil) const { return coil / PerPole(); }
+  int CoilAt(Index k) const { return coils_[static_cast<std::size_t>(k)]; }
+  int LaneOf(Index pole) const { return static_cast<int>(pole) * PerPole(); }
+  Eigen::Vector2d Direction(Index pole) const {
+    return {lanes_.direction_x[LaneOf(pole)], lanes_.direction_y[LaneOf(pole)]};
+  }
+  double Gap(Index pole) const { return lanes_.gap_offset[LaneOf(pole)] - Direction(pole).dot(r_); }
+
+  /// δφ_p = G_p (Σ n/L δλ + φ R'(g) d·δr + Σ w δz - U), G_p = 1/(R + slope + Σ n²/L).
+  MatrixXd FluxOfColumns() const {
+    const Index n = Coils();
+    MatrixXd m = MatrixXd::Zero(Poles(), n + 2 + states_);
+    Eigen::VectorXd own(Poles());
+    for (Index p = 0; p < Poles(); ++p) {
+      const int lane = LaneOf(p);
+      own(p) = lanes_.reluctance.Value(Gap(p)) + iron_.slope[lane];
+      m.block<1, 2>(p, n) =
+          lanes_.phi[lane] * lanes_.reluctance.Slope(Gap(p)) * Direction(p).transpose();
+      for (Index k = 0; k < Relaxations(); ++k)
+        m(p, n + 2 + p * Relaxations() + k) = iron_.relaxations[static_cast<std::size_t>(k)].weight;
+    }
+    for (Index k = 0; k < n; ++k) {
+      const int j = CoilAt(k);
+      own(PoleOf(j)) += lanes_.n[j] * lanes_.n[j] / lanes_.leakage[j];
+      m(PoleOf(j), k) = lanes_.n[j] / lanes_.leakage[j];
+    }
+    const Eigen::VectorXd G = own.cwiseInverse();
+    if (lanes_.coupling == Coupling::kFloatingRotor) {
+      const Eigen::RowVectorXd potential = G.transpose() * m / G.sum();
+      m.rowwise() -= potential;
+    }
+    return G.asDiagonal() * m;
+  }
+
+  /// f_p = d Pull(g) φ²/2, g' = -d.
+  MatrixXd ForceOfColumns() const {
+    MatrixXd out = MatrixXd::Zero(2, flux_.cols());
+    for (Index p = 0; p < Poles(); ++p) {
+      const Eigen::Vector2d d = Direction(p);
+      const double phi = lanes_.phi[LaneOf(p)];
+      out += d * (lanes_.reluctance.Pull(Gap(p)) * phi * flux_.row(p));
+      out.middleCols(Coils(), 2) -=
+          0.5 * lanes_.reluctance.PullSlope(Gap(p)) * phi * phi * d * d.transpose();
+    }
+    return out;
+  }
+
+  const StatorLanes& lanes_;
+  LinearDrop iron_;
+  Eigen::Vector2d r_;
+  std::vector<int> coils_;
+  Index states_ = 0;
+  MatrixXd flux_;  // (poles x columns)
+};
 
 /// Of any stator: with L and J = dF/di of the coils that carry, S = dF/dr at constant current and
 /// dλ/dr = Jᵀ,  I_λ = L⁻¹,  I_r = -L⁻¹ Jᵀ,  F_λ = J L⁻¹,  F_r = S - J L⁻¹ Jᵀ.
@@ -60,67 +176,57 @@ LinearBearing LineariseStatorNetwork(const StatorLanes& lanes, const Lane& curre
   out.I_r = -out.I_lambda * J.transpose();
   out.F_lambda = J * out.I_lambda;
   out.F_r = network.NegativeStiffness(r, counted).topLeftCorner<2, 2>() + J * out.I_r;
+  out.I_z.resize(n, 0);
+  out.F_z.resize(2, 0);
+  out.Z_lambda.resize(0, n);
+  out.Z_r.resize(0, 2);
   return out;
 }
 
 }  // namespace
 
-Eigen::MatrixXd LinearBearing::Inductance() const { return InverseOf(I_lambda); }
+LinearBearing LinearBearing::AtRest() const {
+  if (states() == 0) return *this;
+  // 0 = Z_λ δλ + Z_r δr + Z_z δz
+  const MatrixXd z_lambda = -SolveLinearColumns(Z_z, Z_lambda), z_r = -SolveLinearColumns(Z_z, Z_r);
+  LinearBearing out = *this;
+  out.I_lambda += I_z * z_lambda;
+  out.I_r += I_z * z_r;
+  out.F_lambda += F_z * z_lambda;
+  out.F_r += F_z * z_r;
+  out.I_z.resize(I_z.rows(), 0);
+  out.F_z.resize(2, 0);
+  out.Z_lambda.resize(0, Z_lambda.cols());
+  out.Z_r.resize(0, 2);
+  out.Z_z.resize(0, 0);
+  return out;
+}
 
-Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return F_lambda * Inductance(); }
+Eigen::MatrixXd LinearBearing::Inductance() const { return InverseOf(AtRest().I_lambda); }
 
-Eigen::Matrix2d LinearBearing::NegativeStiffness() const { return F_r - ForceOfCurrent() * I_r; }
+Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return AtRest().F_lambda * Inductance(); }
+
+Eigen::Matrix2d LinearBearing::NegativeStiffness() const {
+  const LinearBearing rest = AtRest();
+  return rest.F_r - rest.F_lambda * InverseOf(rest.I_lambda) * rest.I_r;
+}
 
 LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y) {
   if (lanes.network) return LineariseStatorNetwork(lanes, current, x, y);
-  CoilNetwork network(lanes);
-  LinearBearing out;
-  double carried[kMaxWindings] = {}, lambda[kMaxWindings] = {}, slope[kMaxWindings] = {};
-  for (int j = 0; j < lanes.coils; ++j) {
-    network.windings[AsSize(j)].conducts = !lanes.unipolar || current[j] > 0;
-    network.windings[AsSize(j)].broken = lanes.open[AsSize(j)];
-    if (!network.windings[AsSize(j)].conducts || lanes.open[AsSize(j)]) continue;
-    carried[j] = current[j];
-    out.coils.push_back(j);
-  }
-  network.Linkages(carried, x, y, lambda);
-  NetworkState s;
-  network.Solve(lambda, x, y, s);
-  const auto n = static_cast<Eigen::Index>(out.coils.size());
-  out.current.resize(n);
-  out.resistance.resize(n);
-  out.I_lambda.resize(n, n);
-  out.I_r.resize(n, 2);
-  out.F_lambda.resize(2, n);
-  const auto column = [&](const NetworkRates& rate, auto&& to) {
-    for (Eigen::Index k = 0; k < n; ++k)
-      to(k) = rate.i[AsSize(out.coils[AsSize(static_cast<int>(k))])];
-  };
-  NetworkRates rate;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const int coil = out.coils[AsSize(static_cast<int>(k))];
-    out.current(k) = current[coil];
-    out.resistance(k) = lanes.resistance[coil];
-    slope[coil] = 1;
-    network.Rates(s, slope, x, y, 0, 0, rate);
-    slope[coil] = 0;
-    column(rate, out.I_lambda.col(k));
-    out.F_lambda.col(k) = ForceChange(lanes, s, rate, x, y, 0, 0);
-  }
-  for (int axis = 0; axis < 2; ++axis) {
-    const double dx = axis == 0, dy = axis == 1;
-    network.Rates(s, slope, x, y, dx, dy, rate);
-    column(rate, out.I_r.col(axis));
-    out.F_r.col(axis) = ForceChange(lanes, s, rate, x, y, dx, dy);
-  }
-  return out;
+  StatorLanes at = lanes;
+  Lane carried{};
+  for (int j = 0; j < lanes.coils; ++j)
+    if (!lanes.unipolar || current[j] > 0) carried[j] = current[j];
+  at.Settle(carried, x, y);
+  return LinearCircuit(at, {x, y}).Derivatives();
 }
 
 Eigen::MatrixXd PatternInverse(const Eigen::MatrixXd& pattern) {
   return SolveSymmetricColumns(pattern.transpose() * pattern, pattern.transpose());
 }
 
-LinearBearing OntoPatterns(const LinearBearing& b, const Eigen::MatrixXd& pattern) {
+LinearBearing OntoPatterns(const LinearBearing& bearing, const Eigen::MatrixXd& pattern) {
+  const LinearBearing b = bearing.AtRest();
   const Eigen::MatrixXd along = PatternInverse(pattern), L = b.Inductance();
   LinearBearing out;
   for (Eigen::Index k = 0; k < pattern.cols(); ++k) out.coils.push_back(static_cast<int>(k));
@@ -130,6 +236,10 @@ LinearBearing OntoPatterns(const LinearBearing& b, const Eigen::MatrixXd& patter
   out.I_r = out.I_lambda * along * L * b.I_r;
   out.F_lambda = b.ForceOfCurrent() * pattern * out.I_lambda;
   out.F_r = b.NegativeStiffness() + b.ForceOfCurrent() * pattern * out.I_r;
+  out.I_z.resize(pattern.cols(), 0);
+  out.F_z.resize(2, 0);
+  out.Z_lambda.resize(0, pattern.cols());
+  out.Z_r.resize(0, 2);
   return out;
 }
 

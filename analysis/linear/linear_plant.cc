@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/index.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {
@@ -65,6 +66,7 @@ LinearRotor Restrict(const LinearRotor& r, const std::vector<int>& kept) {
 struct BearingPart {
   LinearBearing magnets;
   std::vector<PlantCoil> currents;
+  LinearSensor sensor;
 };
 
 /// Set-points of a bearing's coils per force of its axes (coils that carry x axes) [A/N]; zero
@@ -87,6 +89,7 @@ BearingPart PartOf(const OperatingPoint& point, std::size_t k, CurrentModel curr
   const MatrixXd set = SetPointsPerForce(point, k);
   const LinearBearing& exact = point.bearings[k];
   BearingPart out;
+  out.sensor = point.sensors[k];
   if (currents == CurrentModel::kCoils) {
     out.magnets = exact;
     for (Index j = 0; j < set.rows(); ++j) {
@@ -127,15 +130,81 @@ std::vector<std::size_t> BearingsOf(const OperatingPoint& point,
   return out;
 }
 
-/// Sizes and zeros of a plant whose rotor and currents are known.
-void Resize(LinearPlant& p) {
-  const Index m = p.rotor.M.rows(), c = static_cast<Index>(p.coils.size()), n = 2 * m + c;
+/// Sizes and zeros of a plant whose rotor and currents are known; `hidden`: states of iron and
+/// sensors.
+void Resize(LinearPlant& p, Index hidden) {
+  const Index m = p.rotor.M.rows(), c = static_cast<Index>(p.coils.size()), n = 2 * m + c + hidden;
   Index axes = 0;
   for (const LinearPort& port : p.rotor.ports) axes += port.C.rows();
   p.A.setZero(n, n);
   p.pushed.setZero(n, m);
-  p.current.setZero(c, n);
+  for (MatrixXd* rows : {&p.current, &p.measured}) rows->setZero(c, n);
   for (MatrixXd* rows : {&p.reading, &p.position, &p.force}) rows->setZero(axes, n);
+}
+
+/// Where the parts of one bearing stand in a plant.
+struct PartPlace {
+  Index coil = 0, axis = 0;  // the first of its coils, of its axes
+  Index state = 0;           // the first of its hidden states
+};
+
+/// Currents, forces and states of the iron.
+void PlaceMagnets(const LinearBearing& b, const LinearPort& port, const PartPlace& at,
+                  LinearPlant& p) {
+  const Index m = p.m(), nc = b.I_lambda.rows(), na = port.C.rows(), s = b.states(),
+              first = 2 * m + at.coil;
+  const auto fill = [&](Eigen::Ref<MatrixXd> rows, const MatrixXd& of_lambda, const MatrixXd& of_r,
+                        const MatrixXd& of_z) {
+    rows.leftCols(m) = of_r.leftCols(na) * port.gap;
+    rows.middleCols(first, nc) = of_lambda;
+    rows.middleCols(at.state, s) = of_z;
+  };
+  fill(p.current.middleRows(at.coil, nc), b.I_lambda, b.I_r, b.I_z);
+  fill(p.force.middleRows(at.axis, na), b.F_lambda.topRows(na), b.F_r.topRows(na),
+       b.F_z.topRows(na));
+  fill(p.A.middleRows(at.state, s), b.Z_lambda, b.Z_r, b.Z_z);
+  p.A.middleRows(first, nc) = (-b.resistance).asDiagonal() * p.current.middleRows(at.coil, nc);
+  p.position.block(at.axis, 0, na, m) = port.gap;
+}
+
+/// Readings of a bearing's axes from `axis` on; its lags take the states from `state` on, axis by
+/// axis of one lag, then the next. Returns the first state behind them.
+Index PlaceSensor(const LinearSensor& sensor, const LinearPort& port, Index axis, Index state,
+                  LinearPlant& p) {
+  const Index na = port.C.rows();
+  MatrixXd in = MatrixXd::Zero(na, p.n());
+  in.leftCols(p.m()) = sensor.slope.topLeftCorner(na, na) * port.C;
+  for (const double lag : sensor.lags) {
+    p.A.middleRows(state, na) = in / lag;
+    p.A.block(state, state, na, na).diagonal().array() -= 1 / lag;
+    in.setZero();
+    in.middleCols(state, na).setIdentity();
+    state += na;
+  }
+  p.reading.middleRows(axis, na) = in;
+  return state;
+}
+
+/// Currents, forces, readings and what is hidden of all bearings; returns the generalised magnetic
+/// forces (m x n).
+MatrixXd PlaceParts(const std::vector<BearingPart>& parts, LinearPlant& p) {
+  Index hidden = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    hidden += parts[k].magnets.states() +
+              static_cast<Index>(parts[k].sensor.lags.size()) * p.rotor.ports[k].C.rows();
+  Resize(p, hidden);
+  MatrixXd pull = MatrixXd::Zero(p.m(), p.n());
+  PartPlace at{0, 0, 2 * p.m() + static_cast<Index>(p.coils.size())};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const LinearPort& port = p.rotor.ports[k];
+    PlaceMagnets(parts[k].magnets, port, at, p);
+    pull += port.B * p.force.middleRows(at.axis, port.C.rows());
+    at.coil += parts[k].magnets.I_lambda.rows();
+    at.state += parts[k].magnets.states();
+    at.state = PlaceSensor(parts[k].sensor, port, at.axis, at.state, p);
+    at.axis += port.C.rows();
+  }
+  return pull;
 }
 
 }  // namespace
@@ -166,32 +235,19 @@ LinearPlant LinearisePlant(const OperatingPoint& point, double speed, CurrentMod
   whole.ports = ports;
   p.coordinate = Moved(whole, speed);
   p.rotor = Restrict(whole, p.coordinate);
-  Resize(p);
-  const Index m = p.m(), coils = static_cast<Index>(p.coils.size());
-  VectorXd resistance(coils);
-  MatrixXd pull = MatrixXd::Zero(m, p.n());  // generalised magnetic forces
-  Index c = 0, a = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const LinearBearing& b = parts[k].magnets;
-    const LinearPort& port = p.rotor.ports[k];
-    const Index nc = b.I_lambda.rows(), na = port.C.rows();
-    p.current.block(c, 0, nc, m) = b.I_r.leftCols(na) * port.gap;
-    p.current.block(c, 2 * m + c, nc, nc) = b.I_lambda;
-    resistance.segment(c, nc) = b.resistance;
-    p.reading.block(a, 0, na, m) = port.C;
-    p.position.block(a, 0, na, m) = port.gap;
-    p.force.block(a, 0, na, m) = b.F_r.topLeftCorner(na, na) * port.gap;
-    p.force.block(a, 2 * m + c, na, nc) = b.F_lambda.topRows(na);
-    pull += port.B * p.force.middleRows(a, na);
-    c += nc;
-    a += na;
-  }
+  const MatrixXd pull = PlaceParts(parts, p);
+  p.measured = p.current;
+  if (currents == CurrentModel::kCoils)
+    for (Index j = 0; j < p.current.rows(); ++j) {
+      const PlantCoil& c = p.coils[static_cast<std::size_t>(j)];
+      p.measured.row(j) *= point.plant().bearings[c.bearing].current_sensor[AsSize(c.lane)].gain;
+    }
+  const Index m = p.m();
   const Eigen::PartialPivLU<MatrixXd> mass(p.rotor.M);
   p.A.block(0, m, m, m).setIdentity();
   p.A.middleRows(m, m) = mass.solve(pull);
   p.A.block(m, 0, m, m) -= mass.solve(p.rotor.K);
   p.A.block(m, m, m, m) -= mass.solve(p.rotor.D + speed * p.rotor.G);
-  p.A.bottomRows(coils) = (-resistance).asDiagonal() * p.current;
   p.pushed.middleRows(m, m) = mass.solve(MatrixXd::Identity(m, m));
   return p;
 }

@@ -2,11 +2,13 @@
 /// The plant of a rig between sampling instants as one linear system, deviations from the operating
 /// point at one speed:
 ///
-///   x = [q, q', λ]      q: kept coordinates of the rotor, λ: linkages of the coils that carry
-///   M q'' + (D + Ω G) q' + K q = Σ B f,   λ' = v - R i,   i = I_λ λ + I_r r,   f = F_λ λ + F_r r
+///   x = [q, q', λ, (z, y)...]   q: kept coordinates of the rotor, λ: linkages of the coils that
+///                          carry, z: states of the iron, y: lags of the sensors of each bearing
+///   M q'' + (D + Ω G) q' + K q = Σ B f,   λ' = v - R i,   i = I_λ λ + I_r r + I_z z,
+///   f = F_λ λ + F_r r + F_z z,   z' = Z_λ λ + Z_r r + Z_z z,   τ y' = u - y
 ///
-/// with r the shaft at the magnets. The currents are those of the coils or, for a controller's
-/// synthesis, which wants few states, the amplitudes of the axes' patterns (OntoPatterns).
+/// with r the shaft at the magnets and u what comes into a lag. The currents are those of the coils or, for a controller's
+/// synthesis, which wants few states, the amplitudes of the axes' patterns (OntoPatterns), without z.
 /// Coordinates that no bearing moves, not even through others (z without a thrust bearing, races,
 /// what an opposed pair on a bench cannot reach), are left out. Source: base_model.md sections 1
 /// and 2; rotor/linear/linear_rotor.h, linear_bearing.h.
@@ -44,11 +46,12 @@ struct LinearPlant {
   LinearRotor rotor;            // kept coordinates only; ports: one per bearing
   std::vector<int> coordinate;  // of each kept one in MotionState::q
   std::vector<PlantCoil> coils;
-  // n = 2 m + c states; m coordinates, c coils, a controlled axes.
+  // n = 2 m + c states and those of iron and sensors; m coordinates, c coils, a controlled axes.
   Eigen::MatrixXd A;         // (n x n)
   Eigen::MatrixXd pushed;    // (n x m) rates of x by generalised forces on q
   Eigen::MatrixXd current;   // (c x n) coil currents [A]
-  Eigen::MatrixXd reading;   // (a x n) shaft at the sensors [m]
+  Eigen::MatrixXd measured;  // (c x n) the same as their sensors read them [A]
+  Eigen::MatrixXd reading;   // (a x n) of the position sensors [m]
   Eigen::MatrixXd position;  // (a x n) shaft at the magnets [m]
   Eigen::MatrixXd force;     // (a x n) of the magnets on the rotor [N]
 

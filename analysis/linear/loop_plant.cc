@@ -95,7 +95,7 @@ VectorXcd LoopPlant::Disturbance(const HarmonicInput& in) const {
   for (int k = 0; k < period_.samples; ++k)
     samples += std::exp(iw * (k * period_.T / period_.samples));
   const VectorXcd sampled =
-      plant_.current.cast<Complex>() * p * (samples / static_cast<double>(period_.samples)) -
+      plant_.measured.cast<Complex>() * p * (samples / static_cast<double>(period_.samples)) -
       period_.feedback_of_state.cast<Complex>() * p;
   MatrixXcd x = MatrixXcd::Zero(states(), 1);
   Tick(x, MatrixXcd(MatrixXcd::Zero(axes(), 1)), [&](int j, MatrixXcd& plant, MatrixXcd& mean) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "analysis/linear/bridge_point.h"
 #include "core/base/coil_name.h"
 #include "core/base/index.h"
 #include "rig/nominal_control.h"
@@ -22,8 +24,10 @@ OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known,
 
 void OperatingPoint::PlaceCoils(std::size_t k) {
   const BearingControl& own = control()[k];
+  const BearingPlant& bearing = plant().bearings[k];
   AmplifierParameters amplifier = rig().amplifier;
-  amplifier.voltage_mode = false;  // the duty that holds a current is the same
+  const bool follows = !amplifier.voltage_mode;  // what its sensor reads
+  amplifier.voltage_mode = false;                // the duty that holds a current is the same
   const double* f = force.data() + FirstAxis(k);
   const double fx = f[0], fy = AxisCount(k) > 1 ? f[1] : 0;
   const auto set = own.map.SetPoints(fx, fy);
@@ -33,12 +37,9 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
   std::vector<CoilPoint> placed(AsSize(own.coils));
   for (int j = 0; j < own.coils; ++j) {
     CoilPoint& c = placed[AsSize(j)];
-    c.current = set[j];
+    c.current = follows ? CarriedCurrent(bearing, j, set[j]) : set[j];
     c.commanded = set[j] == free[j];
-    CurrentRegulator regulator(amplifier);
-    regulator.HoldCurrent(std::max(c.current, 1.01 * kInterruptedCurrent),
-                          plant().bearings[k].base_resistance[j]);
-    c.duty = regulator.DutyFromVoltage(regulator.integral());
+    c.duty = HoldingDuty(k, j, std::max(c.current, 1.01 * kInterruptedCurrent));
     const std::string name = CoilName(own.name, j);
     if (!c.commanded)
       notes.push_back(
@@ -53,21 +54,19 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
   coils.push_back(placed);
 }
 
+double OperatingPoint::HoldingDuty(std::size_t bearing, int coil, double current) const {
+  const BearingPlant& b = plant().bearings[bearing];
+  const double volts = b.base_resistance[coil] * current;
+  const double guess = CurrentRegulator(rig().amplifier).DutyFromVoltage(volts);
+  return DutyForVoltage(rig().amplifier, b.bridge[AsSize(coil)], plant().bus.voltage, volts, guess);
+}
+
 void OperatingPoint::NoteWhatIsLeftOut() {
-  for (const BearingPlant& b : plant().bearings) {
-    if (!b.lanes.laws.empty())
+  for (const BearingPlant& b : plant().bearings)
+    if (std::ranges::any_of(b.lanes.laws,
+                            [&](const FluxLaw* law) { return !law->LinearAt(b.lanes.phi); }))
       notes.push_back(
-          fmt::format("bearing {}: effects of its iron are not in the linear model", b.name));
-    if (!b.sensor.maps.empty())
-      notes.push_back(fmt::format(
-          "bearing {}: effects of its position sensors are not in the linear model", b.name));
-    for (const CurrentSensor& s : b.current_sensor)
-      if (s.gain != 1) {
-        notes.push_back(fmt::format(
-            "bearing {}: errors of its current sensors are not in the linear model", b.name));
-        break;
-      }
-  }
+          fmt::format("bearing {}: hysteresis of its iron is not in the linear model", b.name));
   if (!plant().bus.stiff()) notes.push_back("the bus counts as stiff in the linear model");
 }
 
@@ -88,7 +87,7 @@ std::size_t OperatingPoint::BearingOf(std::size_t axis) const {
 OperatingPoint::OperatingPoint(const TrueRig& true_rig, const NominalRig& known,
                                const std::vector<CurrentMap>& maps)
     : force(WeightOverAxes(*true_rig)), model_(std::make_shared<Model>(true_rig, known, maps)) {
-  const Equilibrium e = LevitatedEquilibrium(rig(), plant(), control());
+  const Equilibrium e = LevitatedEquilibrium(rig(), plant(), control(), EquilibriumOf::kTrueParts);
   if (e.usable()) {
     force = e.force;
     motion.q = e.q;
@@ -102,6 +101,8 @@ OperatingPoint::OperatingPoint(const TrueRig& true_rig, const NominalRig& known,
     Lane current{};
     for (int j = 0; j < b.lanes.coils; ++j) current[j] = coils[k][AsSize(j)].current;
     bearings.push_back(LineariseBearing(b.lanes, current, x - b.offset_x, y - b.offset_y));
+    const PlanePoint at = plant().rotor.Position(motion, b.sensor.map);
+    sensors.push_back(LineariseSensor(b.sensor, motion, at.x, at.y));
   }
   NoteWhatIsLeftOut();
 }

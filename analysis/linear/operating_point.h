@@ -1,19 +1,20 @@
 #pragma once
 /// Where a rig is linearised: levitated at rest, every sensor reads zero, the coils carry what
-/// holds the weight. What turns with the shaft is no part of it; speed enters the derivatives only.
+/// holds the weight, with the laws of the iron and the errors of sensors and bridges. What turns with the shaft is no part of it; speed enters the derivatives only.
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "analysis/linear/equilibrium.h"
 #include "analysis/linear/linear_bearing.h"
+#include "analysis/linear/linear_sensor.h"
 #include "rig/true_rig.h"
 
 namespace ambrig {
 
 /// One coil at the operating point.
 struct CoilPoint {
-  double current = 0;     // set-point [A]
+  double current = 0;     // carried [A]
   double duty = 0;        // that holds it [-]
   bool commanded = true;  // false: its set-point is at a limit and does not follow the force
 };
@@ -36,6 +37,8 @@ class OperatingPoint {
   /// The first axis of a bearing, and how many it has.
   std::size_t FirstAxis(std::size_t bearing) const;
   std::size_t AxisCount(std::size_t bearing) const { return AxesOf(plant().bearings[bearing]); }
+  /// The duty that holds `current` [A] in a coil.
+  double HoldingDuty(std::size_t bearing, int coil, double current) const;
   /// The bearing that an axis belongs to.
   std::size_t BearingOf(std::size_t axis) const;
 
@@ -43,7 +46,8 @@ class OperatingPoint {
   std::vector<double> force;                  // per axis [N]
   std::vector<std::vector<CoilPoint>> coils;  // per bearing
   std::vector<LinearBearing> bearings;
-  std::vector<std::string> notes;  // what of this rig the linear model leaves out, one line each
+  std::vector<LinearSensor> sensors;  // per bearing
+  std::vector<std::string> notes;     // what of this rig the linear model leaves out, one line each
 
  private:
   /// Shared by copies: the control refers to the parameters, the plant to itself.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/closed_loop_modes.h"
+#include "analysis/linear/bridge_point.h"
 #include "analysis/transfer_function.h"
 #include "core/base/index.h"
 #include "core/math/constants.h"
@@ -65,8 +66,8 @@ LinearResponses::LinearResponses(const RigParameters& rig, const RigParameters& 
 }
 
 void LinearResponses::Levitate(double speed) {
-  const LoopPlant open(*point_, LinearisePlant(*point_, speed));
   loop_ = std::make_unique<ClosedLoop>(*point_, speed);
+  const Index feedback = loop_->open().feedback();
   // The coils' feedback as further outputs.
   const Index coils = static_cast<Index>(loop_->plant().coils.size());
   feedback_row_ = loop_->C.rows();
@@ -75,7 +76,7 @@ void LinearResponses::Levitate(double speed) {
   loop_->C.bottomRows(coils).setZero();
   loop_->D.bottomRows(coils).setZero();
   for (Index j = 0; j < coils; ++j)
-    loop_->C(feedback_row_ + j, open.feedback() + j) = loop_->scale()(open.feedback() + j);
+    loop_->C(feedback_row_ + j, feedback + j) = loop_->scale()(feedback + j);
   transfer_ = std::make_unique<TransferFunction>(*point_, *loop_);
   stable_ = IsStable(transfer_->eigenvalues().cwiseAbs().maxCoeff());
 }
@@ -100,14 +101,15 @@ void LinearResponses::Hold(const RigParameters& drawing, const Scenario& scenari
     Lane current = commands.current[k];
     for (int j = 0; j < b.lanes.coils; ++j) {
       CoilPoint& c = point.coils[k][AsSize(j)];
-      const double held = b.base_resistance[j] * current[j];
-      c.duty = point.control()[k].regulator[AsSize(j)].DutyFromVoltage(held);
       if (commands.by_duty[k][AsSize(j)]) {
         c.duty = commands.duty[k][j];
-        const CurrentRegulator& r = point.control()[k].regulator[AsSize(j)];
-        const double volts =
-            (c.duty - r.DutyFromVoltage(0)) / (r.DutyFromVoltage(1) - r.DutyFromVoltage(0));
-        current[j] = volts / b.base_resistance[j];
+        const BridgePoint at =
+            BridgeAt(point.rig().amplifier, b.bridge[AsSize(j)], point.plant().bus.voltage, c.duty);
+        current[j] = at.volts / b.base_resistance[j];
+      } else {
+        if (!point.nominal().amplifier.voltage_mode && current[j] != 0)
+          current[j] = CarriedCurrent(b, j, current[j]);
+        c.duty = point.HoldingDuty(k, j, current[j]);
       }
       c.current = current[j];
       c.commanded = true;
@@ -127,14 +129,15 @@ void LinearResponses::CloseCurrentLoops(const std::vector<std::array<bool, kLane
   const double per_volt = regulator.DutyFromVoltage(1) - regulator.DutyFromVoltage(0);
   period_ = map.T;
   for (const PlantCoil& c : plant.coils) coils_.emplace_back(c.bearing, c.lane);
-  const Index c = static_cast<Index>(coils_.size()), first = 2 * plant.m();
+  // the plant without its rotor: linkages and what is hidden
+  const Index c = static_cast<Index>(coils_.size()), first = 2 * plant.m(), s = plant.n() - first;
   // duty = per_volt (kp e + integral'), integral' = integral + ki T e, e = s - feedback
   const double gain = per_volt * (a.kp + a.ki * map.T), slope = a.ki * map.T;
-  MatrixXd duty_of_x = MatrixXd::Zero(c, 3 * c);
+  MatrixXd duty_of_x = MatrixXd::Zero(c, s + 2 * c);
   MatrixXd duty_of_s = gain * MatrixXd::Identity(c, c);
   MatrixXd integral_of_fb = -slope * MatrixXd::Identity(c, c);
   MatrixXd integral_of_s = slope * MatrixXd::Identity(c, c);
-  duty_of_x.middleCols(c, c) = per_volt * MatrixXd::Identity(c, c);
+  duty_of_x.middleCols(s, c) = per_volt * MatrixXd::Identity(c, c);
   duty_of_x.rightCols(c) = (a.voltage_mode ? 0 : -gain) * MatrixXd::Identity(c, c);
   for (Index j = 0; j < c; ++j) {  // whose duty is given has no loop
     const auto [k, lane] = coils_[AsSize(j)];
@@ -144,19 +147,21 @@ void LinearResponses::CloseCurrentLoops(const std::vector<std::array<bool, kLane
     integral_of_fb.row(j).setZero();
     integral_of_s.row(j).setZero();
   }
-  const MatrixXd flow = map.state.block(first, first, c, c), push = map.duty.middleRows(first, c),
-                 seen = map.feedback_of_state.middleCols(first, c);
-  state_.setZero(3 * c, 3 * c);
-  state_.topRows(c) = push * duty_of_x;
-  state_.topLeftCorner(c, c) += flow;
-  state_.block(c, c, c, c).setIdentity();
-  state_.block(c, 2 * c, c, c) = integral_of_fb;
-  state_.bottomRows(c) = map.feedback_of_duty * duty_of_x;
-  state_.bottomLeftCorner(c, c) += seen;
-  by_set_point_.resize(3 * c, c);
-  by_set_point_ << push * duty_of_s, integral_of_s, map.feedback_of_duty * duty_of_s;
-  by_duty_.resize(3 * c, c);
-  by_duty_ << push, MatrixXd::Zero(c, c), map.feedback_of_duty;
+  const MatrixXd flow = map.state.bottomRightCorner(s, s), push = map.duty.bottomRows(s),
+                 seen = map.feedback_of_state.rightCols(s);
+  MatrixXd state = MatrixXd::Zero(s + 2 * c, s + 2 * c);
+  state.topRows(s) = push * duty_of_x;
+  state.topLeftCorner(s, s) += flow;
+  state.block(s, s, c, c).setIdentity();
+  state.block(s, s + c, c, c) = integral_of_fb;
+  state.bottomRows(c) = map.feedback_of_duty * duty_of_x;
+  state.bottomLeftCorner(c, s) += seen;
+  MatrixXd by(s + 2 * c, 2 * c), feedback(c, s + 2 * c);
+  by << push * duty_of_s, push,             //
+      integral_of_s, MatrixXd::Zero(c, c),  //
+      map.feedback_of_duty * duty_of_s, map.feedback_of_duty;
+  feedback << MatrixXd::Zero(c, s + c), MatrixXd::Identity(c, c);
+  held_ = std::make_unique<SampledSystem>(state, by, feedback);
 }
 
 Complex LinearResponses::Levitated(const ResponsePoint& port, const ResponsePoint& out,
@@ -211,10 +216,11 @@ Complex LinearResponses::Held(const ResponsePoint& port, const ResponsePoint& ou
                     from < 0 ? port.name : out.name));
   if (out.kind == PointKind::kSetPoint)
     return from == to && port.kind == PointKind::kCurrentPort ? 1 : 0;
-  MatrixXcd shifted = -state_.cast<Complex>();
-  shifted.diagonal().array() += std::polar(1.0, 2 * kPi * f * period_);
-  const MatrixXd& by = port.kind == PointKind::kDutyPort ? by_duty_ : by_set_point_;
-  return SolveComplex(shifted, by.col(from).cast<Complex>())(2 * c + to);
+  if (at_ != f) {
+    kept_ = held_->At(std::polar(1.0, 2 * kPi * f * period_));
+    at_ = f;
+  }
+  return kept_(to, port.kind == PointKind::kDutyPort ? c + from : from);
 }
 
 Complex LinearResponses::Between(const ResponsePoint& port, const ResponsePoint& out,

@@ -4,12 +4,12 @@
 /// Levitated: the closed loop of analysis/closed_loop.h. Held: the coils of the rig under their
 /// current loops at the positions and currents of the scenario,
 ///
-///   x = [linkages | integrals | feedback],  one switching period per step
+///   x = [linkages, states of the iron | integrals | feedback],  one switching period per step
 ///   (analysis/linear/period_map.h)
 ///
 /// What a record's columns mean stays: currents are the feedback of the amplifiers (mean over the
 /// switching period before the row), set-points those in force from the row on.
-/// Effects of iron, sensors and bridges are not in the linear model: multisine_response.h.
+/// Hysteresis and a soft bus are not in the linear model: multisine_response.h.
 #include <complex>
 #include <memory>
 #include <vector>
@@ -21,6 +21,7 @@ namespace ambrig {
 
 class ClosedLoop;
 class OperatingPoint;
+class SampledSystem;
 class TransferFunction;
 
 /// What a scenario commands from its start on and for good: its steps at t <= 0, without an end.
@@ -61,7 +62,7 @@ class LinearResponses {
   mutable Eigen::MatrixXcd kept_;
 
   // held rotor
-  Eigen::MatrixXd state_, by_set_point_, by_duty_;  // one switching period
+  std::unique_ptr<SampledSystem> held_;             // set-points, duties -> feedback
   std::vector<std::pair<std::size_t, int>> coils_;  // (bearing, lane) of each current
   double period_ = 0;                               // [s]
 };

@@ -1,7 +1,7 @@
 #pragma once
 /// Frequency responses of a hypothesis at the frequencies of a record: the exact linearisation
-/// (linear_responses.h), and where the hypothesis has effects that it leaves out (iron, sensors,
-/// bridges, bus), times what they change in a simulated multisine test (multisine_response.h).
+/// (linear_responses.h), and where the hypothesis has effects that it leaves out (hysteresis, a
+/// soft bus, heating), times what they change in a simulated multisine test (multisine_response.h).
 #include <list>
 #include <map>
 #include <mutex>
@@ -12,7 +12,7 @@
 namespace ambrig {
 
 /// Whether the linearised rig holds all that this effect does to a small signal. Found by building
-/// the plant with it: what acts on the rotor, the gaps, the windings and the delay is in it.
+/// the plant with it.
 bool InLinearModel(const RigParameters& rig, const EffectInstance& effect);
 
 class ResponsePredictor : public RecordPredictor {

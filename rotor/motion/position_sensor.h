@@ -15,6 +15,11 @@ class ReadingMap {
  public:
   virtual ~ReadingMap() = default;
   virtual void Map(const MotionState& state, double* x, double* y) = 0;
+  // What a linear model asks of a map.
+  /// Whether it only adds what does not depend on where the shaft is (run-out, pick-up).
+  virtual bool signal() const { return false; }
+  /// Time constant of a map that is a first-order lag [s]; 0: a map without memory.
+  virtual double lag() const { return 0; }
 };
 
 /// A fault of one axis' sensor: offset, stuck at its last value, or lost (reads 0).

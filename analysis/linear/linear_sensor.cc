@@ -1,0 +1,23 @@
+#include "analysis/linear/linear_sensor.h"
+
+namespace ambrig {
+
+LinearSensor LineariseSensor(const PositionSensor& sensor, const MotionState& motion, double x,
+                             double y) {
+  constexpr double kStep = 1e-7;  // [m]
+  const auto read = [&](double at_x, double at_y) {
+    Eigen::Vector2d r(at_x, at_y);
+    for (const auto& map : sensor.maps)
+      if (!map->signal() && map->lag() == 0) map->Map(motion, &r.x(), &r.y());
+    return r;
+  };
+  LinearSensor out;
+  out.reading = read(x, y);
+  out.slope.col(0) = (read(x + kStep, y) - read(x - kStep, y)) / (2 * kStep);
+  out.slope.col(1) = (read(x, y + kStep) - read(x, y - kStep)) / (2 * kStep);
+  for (const auto& map : sensor.maps)
+    if (map->lag() > 0) out.lags.push_back(map->lag());
+  return out;
+}
+
+}  // namespace ambrig
