@@ -56,6 +56,11 @@ MatrixXcd SampledSystem::At(Complex z) const {
   return C_ * Shifted(z).triangularView<Eigen::Upper>().solve(B_);
 }
 
+MatrixXcd SampledSystem::At(Complex z, const std::vector<Index>& inputs) const {
+  const MatrixXcd right = B_(Eigen::all, inputs);
+  return C_ * Shifted(z).triangularView<Eigen::Upper>().solve(right);
+}
+
 Eigen::VectorXcd SampledSystem::Under(Complex z, const Eigen::VectorXcd& added) const {
   const Eigen::VectorXcd right = U_.adjoint() * added;
   return C_ * Shifted(z).triangularView<Eigen::Upper>().solve(right);

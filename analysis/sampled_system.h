@@ -6,6 +6,7 @@
 /// A is triangularised once (A = U T Uᴴ, complex Schur form), a frequency then costs O(N²).
 #include <Eigen/Dense>
 #include <complex>
+#include <vector>
 
 namespace ambrig {
 
@@ -14,8 +15,9 @@ class SampledSystem {
   SampledSystem() = default;
   SampledSystem(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Eigen::MatrixXd& C);
 
-  /// Outputs x inputs.
+  /// Outputs x inputs; of these inputs only, in their order.
   Eigen::MatrixXcd At(std::complex<double> z) const;
+  Eigen::MatrixXcd At(std::complex<double> z, const std::vector<Eigen::Index>& inputs) const;
   /// Outputs where x z = A x + `added`.
   Eigen::VectorXcd Under(std::complex<double> z, const Eigen::VectorXcd& added) const;
   const Eigen::VectorXcd& eigenvalues() const { return eigenvalues_; }

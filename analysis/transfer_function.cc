@@ -41,6 +41,10 @@ MatrixXcd TransferFunction::operator()(double omega) const {
   return system_.At(std::polar(1.0, omega * loop_.Ts())) + D_;
 }
 
+MatrixXcd TransferFunction::operator()(double omega, const std::vector<Index>& columns) const {
+  return system_.At(std::polar(1.0, omega * loop_.Ts()), columns) + D_(Eigen::all, columns);
+}
+
 VectorXcd TransferFunction::Harmonic(const HarmonicInput& in) const {
   return system_.Under(std::polar(1.0, in.omega * loop_.Ts()), loop_.Disturbance(in));
 }

@@ -23,6 +23,8 @@ class TransferFunction {
   /// Outputs x inputs of the sampled system at ω [rad/s]; named planes stand behind the loop's
   /// outputs.
   Eigen::MatrixXcd operator()(double omega) const;
+  /// Of these columns of Gamma only.
+  Eigen::MatrixXcd operator()(double omega, const std::vector<Eigen::Index>& columns) const;
   /// Outputs under a continuous harmonic force on the rotor.
   Eigen::VectorXcd Harmonic(const HarmonicInput& input) const;
   const Eigen::VectorXcd& eigenvalues() const { return system_.eigenvalues(); }  // z

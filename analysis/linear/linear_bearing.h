@@ -45,8 +45,9 @@ struct LinearBearing {
 /// told 0 A are blocked by their diodes when the bridges have two quadrants.
 LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y);
 
-/// The same bearing, at rest, when its coils carry only p given patterns of current, i = P v, and v takes the
-/// place of the coils' currents. Linkages count along the patterns, P⁺ λ, with P⁺ = (PᵀP)⁻¹Pᵀ:
+/// The same bearing, at rest, when its coils carry only p given patterns of current, i = P v, and v
+/// takes the place of the coils' currents. Linkages count along the patterns, P⁺ λ, with
+/// P⁺ = (PᵀP)⁻¹Pᵀ:
 ///
 ///   P⁺ λ = (P⁺ L P) v - P⁺ L I_r r,   L = I_λ⁻¹
 ///

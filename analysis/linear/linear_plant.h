@@ -7,11 +7,11 @@
 ///   M q'' + (D + Ω G) q' + K q = Σ B f,   λ' = v - R i,   i = I_λ λ + I_r r + I_z z,
 ///   f = F_λ λ + F_r r + F_z z,   z' = Z_λ λ + Z_r r + Z_z z,   τ y' = u - y
 ///
-/// with r the shaft at the magnets and u what comes into a lag. The currents are those of the coils or, for a controller's
-/// synthesis, which wants few states, the amplitudes of the axes' patterns (OntoPatterns), without z.
-/// Coordinates that no bearing moves, not even through others (z without a thrust bearing, races,
-/// what an opposed pair on a bench cannot reach), are left out. Source: base_model.md sections 1
-/// and 2; rotor/linear/linear_rotor.h, linear_bearing.h.
+/// with r the shaft at the magnets and u what comes into a lag. The currents are those of the coils
+/// or, for a controller's synthesis, which wants few states, the amplitudes of the axes' patterns
+/// (OntoPatterns), without z. Coordinates that no bearing moves, not even through others (z without
+/// a thrust bearing, races, what an opposed pair on a bench cannot reach), are left out. Source:
+/// base_model.md sections 1 and 2; rotor/linear/linear_rotor.h, linear_bearing.h.
 #include <Eigen/Dense>
 #include <vector>
 

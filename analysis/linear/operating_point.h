@@ -1,6 +1,7 @@
 #pragma once
 /// Where a rig is linearised: levitated at rest, every sensor reads zero, the coils carry what
-/// holds the weight, with the laws of the iron and the errors of sensors and bridges. What turns with the shaft is no part of it; speed enters the derivatives only.
+/// holds the weight, with the laws of the iron and the errors of sensors and bridges. What turns
+/// with the shaft is no part of it; speed enters the derivatives only.
 #include <memory>
 #include <string>
 #include <vector>

@@ -14,8 +14,8 @@
 namespace ambrig {
 
 /// Datasets of any number type; those in groups are named with dots ("A/x" is "A.x"); a dataset t
-/// or time serves as the time base, single numbers `rate` and `start` for the attributes. NaN is kept. What is not a vector of numbers is left out with a
-/// note.
+/// or time serves as the time base, single numbers `rate` and `start` for the attributes. NaN is
+/// kept. What is not a vector of numbers is left out with a note.
 /// @throws InputError, one line that names the file: not HDF5, damaged, no rate, unequal lengths
 /// ...
 Record ReadHdf5(const std::string& path);

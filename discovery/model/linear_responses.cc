@@ -20,6 +20,7 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
+using Eigen::VectorXcd;
 
 /// Constant set-points and duties of a held rotor's coils.
 struct HeldCommands {
@@ -164,20 +165,39 @@ void LinearResponses::CloseCurrentLoops(const std::vector<std::array<bool, kLane
   held_ = std::make_unique<SampledSystem>(state, by, feedback);
 }
 
-Complex LinearResponses::Levitated(const ResponsePoint& port, const ResponsePoint& out,
-                                   double f) const {
+/// All outputs under each port of these responses at f, once.
+LinearResponses::Columns LinearResponses::ColumnsAt(
+    double f, const std::vector<RigResponse>& responses) const {
+  Columns out;
   const double omega = 2 * kPi * f;
-  const TransferFunction::Input in = transfer_->FindInput(port.name);
-  if (!in.load && at_ != f) {
-    kept_ = (*transfer_)(omega);
-    at_ = f;
+  std::vector<std::string> ports;  // of the sampled inputs
+  std::vector<Index> inputs;
+  for (const RigResponse& r : responses) {
+    const std::string& name = r.excited.name;
+    if (out.contains(name) || std::ranges::find(ports, name) != ports.end()) continue;
+    if (transfer_) {
+      const TransferFunction::Input in = transfer_->FindInput(name);
+      if (in.load) {
+        out[name] = transfer_->Harmonic({omega, transfer_->LoadOn(in.column)});
+        continue;
+      }
+      inputs.push_back(in.column);
+    } else {
+      const auto c = static_cast<Index>(coils_.size());
+      inputs.push_back(CoilColumn(r.excited) + (r.excited.kind == PointKind::kDutyPort ? c : 0));
+    }
+    ports.push_back(name);
   }
-  const MatrixXcd column =
-      in.load ? MatrixXcd(transfer_->Harmonic({omega, transfer_->LoadOn(in.column)}))
-              : MatrixXcd(kept_.col(in.column));
-  const auto row = [&](const std::string& name) {
-    return column(transfer_->FindOutput(name).row, 0);
-  };
+  if (inputs.empty()) return out;
+  const MatrixXcd H =
+      transfer_ ? (*transfer_)(omega, inputs) : held_->At(std::polar(1.0, omega * period_), inputs);
+  for (std::size_t k = 0; k < ports.size(); ++k) out[ports[k]] = H.col(static_cast<Index>(k));
+  return out;
+}
+
+Complex LinearResponses::Levitated(const ResponsePoint& port, const ResponsePoint& out,
+                                   double omega, const VectorXcd& column) const {
+  const auto row = [&](const std::string& name) { return column(transfer_->FindOutput(name).row); };
   const std::vector<PlantCoil>& coils = loop_->plant().coils;
   switch (out.kind) {
     case PointKind::kError:
@@ -187,12 +207,11 @@ Complex LinearResponses::Levitated(const ResponsePoint& port, const ResponsePoin
     case PointKind::kSetPoint:
       for (std::size_t j = 0; j < coils.size(); ++j) {
         if (coils[j].bearing != out.bearing || coils[j].lane != out.index) continue;
-        if (out.kind == PointKind::kCurrent)
-          return column(feedback_row_ + static_cast<Index>(j), 0);
+        if (out.kind == PointKind::kCurrent) return column(feedback_row_ + static_cast<Index>(j));
         // in force one tick after the command was computed
         Complex s = 0;
         for (Index side = 0; side < coils[j].command.size(); ++side)
-          s += coils[j].command(side) * column(loop_->Command(coils[j].axis + side), 0);
+          s += coils[j].command(side) * column(loop_->Command(coils[j].axis + side));
         return s * std::polar(1.0, -omega * loop_->Ts());
       }
       return 0;
@@ -201,39 +220,40 @@ Complex LinearResponses::Levitated(const ResponsePoint& port, const ResponsePoin
   }
 }
 
-Complex LinearResponses::Held(const ResponsePoint& port, const ResponsePoint& out, double f) const {
-  Index from = -1, to = -1;
-  const Index c = static_cast<Index>(coils_.size());
-  for (Index j = 0; j < c; ++j) {
-    const auto [bearing, lane] = coils_[AsSize(j)];
-    if (bearing == port.bearing && lane == port.index) from = j;
-    if (bearing == out.bearing && lane == out.index) to = j;
-  }
-  if (from < 0 || to < 0)
-    throw InputError(
-        fmt::format("{}: a coil without current has no response, allowed: a constant "
-                    "current in the scenario ([[excitation]] kind = \"step\")",
-                    from < 0 ? port.name : out.name));
-  if (out.kind == PointKind::kSetPoint)
-    return from == to && port.kind == PointKind::kCurrentPort ? 1 : 0;
-  if (at_ != f) {
-    kept_ = held_->At(std::polar(1.0, 2 * kPi * f * period_));
-    at_ = f;
-  }
-  return kept_(to, port.kind == PointKind::kDutyPort ? c + from : from);
+Index LinearResponses::CoilColumn(const ResponsePoint& point) const {
+  for (std::size_t j = 0; j < coils_.size(); ++j)
+    if (coils_[j].first == point.bearing && coils_[j].second == point.index)
+      return static_cast<Index>(j);
+  throw InputError(
+      fmt::format("{}: a coil without current has no response, allowed: a constant current in the "
+                  "scenario ([[excitation]] kind = \"step\")",
+                  point.name));
 }
 
-Complex LinearResponses::Between(const ResponsePoint& port, const ResponsePoint& out,
-                                 double f) const {
+Complex LinearResponses::Held(const ResponsePoint& port, const ResponsePoint& out,
+                              const VectorXcd& column) const {
+  const Index to = CoilColumn(out);
+  if (out.kind == PointKind::kSetPoint)
+    return to == CoilColumn(port) && port.kind == PointKind::kCurrentPort ? 1 : 0;
+  return column(to);
+}
+
+Complex LinearResponses::Between(const ResponsePoint& port, const ResponsePoint& out, double omega,
+                                 const VectorXcd& column) const {
   if (out.port()) return out.name == port.name ? 1 : 0;
-  return transfer_ ? Levitated(port, out, f) : Held(port, out, f);
+  return transfer_ ? Levitated(port, out, omega, column) : Held(port, out, column);
 }
 
 std::vector<Complex> LinearResponses::At(double f,
                                          const std::vector<RigResponse>& responses) const {
+  const Columns columns = ColumnsAt(f, responses);
+  const double omega = 2 * kPi * f;
   std::vector<Complex> out;
-  for (const RigResponse& r : responses)
-    out.push_back(Between(r.excited, r.output, f) / Between(r.excited, r.input, f));
+  for (const RigResponse& r : responses) {
+    const VectorXcd& column = columns.at(r.excited.name);
+    out.push_back(Between(r.excited, r.output, omega, column) /
+                  Between(r.excited, r.input, omega, column));
+  }
   return out;
 }
 

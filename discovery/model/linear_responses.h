@@ -11,7 +11,9 @@
 /// switching period before the row), set-points those in force from the row on.
 /// Hysteresis and a soft bus are not in the linear model: multisine_response.h.
 #include <complex>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "actuators/magnetics/lane.h"
@@ -44,11 +46,17 @@ class LinearResponses {
   const OperatingPoint& point() const { return *point_; }
 
  private:
-  /// Response of a point to a port at f.
-  std::complex<double> Between(const ResponsePoint& port, const ResponsePoint& out, double f) const;
-  std::complex<double> Levitated(const ResponsePoint& port, const ResponsePoint& out,
-                                 double f) const;
-  std::complex<double> Held(const ResponsePoint& port, const ResponsePoint& out, double f) const;
+  using Columns = std::map<std::string, Eigen::VectorXcd>;  // all outputs, by port
+  Columns ColumnsAt(double f, const std::vector<RigResponse>& responses) const;
+  // Response of a point to a port whose column is given, at omega [rad/s].
+  std::complex<double> Between(const ResponsePoint& port, const ResponsePoint& out, double omega,
+                               const Eigen::VectorXcd& column) const;
+  std::complex<double> Levitated(const ResponsePoint& port, const ResponsePoint& out, double omega,
+                                 const Eigen::VectorXcd& column) const;
+  std::complex<double> Held(const ResponsePoint& port, const ResponsePoint& out,
+                            const Eigen::VectorXcd& column) const;
+  /// Of a held rotor: the coil's place among those that carry current. @throws InputError
+  Eigen::Index CoilColumn(const ResponsePoint& point) const;
   void Hold(const RigParameters& drawing, const Scenario& scenario);
   void CloseCurrentLoops(const std::vector<std::array<bool, kLanes>>& by_duty);
   void Levitate(double speed);
@@ -58,8 +66,6 @@ class LinearResponses {
   std::unique_ptr<TransferFunction> transfer_;
   Eigen::Index feedback_row_ = 0;  // first of the coils' feedback among the loop's outputs
   bool stable_ = true;
-  mutable double at_ = -1;  // [Hz] of the matrix kept
-  mutable Eigen::MatrixXcd kept_;
 
   // held rotor
   std::unique_ptr<SampledSystem> held_;             // set-points, duties -> feedback

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "actuators/magnetics/coil_network.h"
+#include "core/math/constants.h"
 #include "rig/rig_assembly.h"
+#include "tests/effects/effect_rigs.h"
 #include "tests/simulation/witness.h"
 
 namespace ambrig {
@@ -107,6 +111,72 @@ TEST_F(Bearing, BlockedCoilsAreLeftOut) {
   for (int j = 0; j < kPoles; ++j) current[j] = j == 3 ? 0 : 2;
   const LinearBearing b = LineariseBearing(lanes_, current, 0, 0);
   EXPECT_EQ(b.coils, (std::vector<int>{0, 1, 2, 4, 5, 6, 7}));
+}
+
+/// A bearing with iron.
+class IronBearing : public ::testing::Test {
+ protected:
+  /// The force on the rotor when everything has settled.
+  static Eigen::Vector2d SettledForce(const StatorLanes& lanes, const Lane& current, double x,
+                                      double y) {
+    StatorLanes at = lanes;
+    at.Settle(current, x, y);
+    Eigen::Vector2d f;
+    at.Force(x, y, &f.x(), &f.y());
+    return f;
+  }
+};
+
+// Slow changes of current and place, against differences of the settled circuit.
+TEST_F(IronBearing, AtRestItsDerivativesAreThoseOfTheSettledCircuit) {
+  RigParameters rig = WithEffect(ReferenceRig(), "saturation", "A", {{"knee", 0.6}});
+  rig = WithEffect(rig, "eddy-currents", "A", {{"cutoff", 500}});
+  const Plant plant = BuildPlant(TrueRig(rig));
+  const StatorLanes& lanes = plant.bearings[0].lanes;
+  const Lane current = UnequalCurrents();
+  const LinearBearing b = LineariseBearing(lanes, current, kX, kY);
+  EXPECT_GT(b.states(), 0);
+  const double di = 1e-5, h = 1e-8;
+  for (int j = 0; j < kPoles; ++j) {
+    Lane more = current, less = current;
+    more[j] += di;
+    less[j] -= di;
+    const Eigen::Vector2d slope =
+        (SettledForce(lanes, more, kX, kY) - SettledForce(lanes, less, kX, kY)) / (2 * di);
+    EXPECT_LT((slope - b.ForceOfCurrent().col(j)).norm(), 1e-5 * b.ForceOfCurrent().norm());
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const double dx = axis == 0 ? h : 0, dy = axis == 1 ? h : 0;
+    const Eigen::Vector2d slope = (SettledForce(lanes, current, kX + dx, kY + dy) -
+                                   SettledForce(lanes, current, kX - dx, kY - dy)) /
+                                  (2 * h);
+    EXPECT_LT((slope - b.NegativeStiffness().col(axis)).norm(),
+              1e-5 * b.NegativeStiffness().norm());
+  }
+  const Plant without = BuildPlant(TrueRig(ReferenceRig()));
+  const LinearBearing ideal = LineariseBearing(without.bearings[0].lanes, current, kX, kY);
+  EXPECT_LT(b.ForceOfCurrent().norm(), 0.99 * ideal.ForceOfCurrent().norm());
+}
+
+// A shorted turn round the flux: at constant current the flux of a small step is
+// φ(t) = φ_end (1 - e^{-ω_c t}), with ω_c of the whole circuit's gap.
+TEST_F(IronBearing, FluxBehindAClosedConductorFollowsAtItsCutoff) {
+  RigParameters rig = ReferenceRig();
+  const double cutoff = 100;  // [Hz]
+  rig = WithEffect(rig, "eddy-sleeve", "Z", {{"cutoff", cutoff}});
+  const Plant plant = BuildPlant(TrueRig(rig));
+  const BearingPlant& thrust =
+      *std::ranges::find_if(plant.bearings, [](const BearingPlant& b) { return b.thrust; });
+  Lane current{};
+  for (int j = 0; j < thrust.lanes.coils; ++j) current[j] = 1;
+  const LinearBearing b = LineariseBearing(thrust.lanes, current, 0, 0);
+  // at constant current: λ = -I_λ⁻¹ I_z z, z' = (Z_z - Z_λ I_λ⁻¹ I_z) z
+  const Eigen::MatrixXd rates = b.Z_z - b.Z_lambda * b.I_lambda.inverse() * b.I_z;
+  const Eigen::VectorXcd values = rates.eigenvalues();
+  for (const std::complex<double>& rate : values) {
+    EXPECT_NEAR(rate.real(), -2 * kPi * cutoff, 1e-3 * 2 * kPi * cutoff);
+    EXPECT_NEAR(rate.imag(), 0, 1e-6);
+  }
 }
 
 }  // namespace

@@ -4,116 +4,31 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "analysis/linear/operating_point.h"
 #include "core/math/constants.h"
-#include "discovery/model/multisine_response.h"
-#include "effects/catalogue.h"
-#include "tests/discovery/bench_case.h"
+#include "tests/discovery/model/response_cases.h"
 
 namespace ambrig {
 namespace {
 
 using Complex = std::complex<double>;
+using testing::AxisCase;
 using testing::CaseOf;
+using testing::ExpectNearSines;
+using testing::kNear;
 using testing::SineRun;
 using testing::TemporaryFolder;
+using testing::Trace;
+using testing::With;
 using testing::WriteBytes;
-
-/// A file of responses at these frequencies; what stands in it plays no part here.
-std::string Trace(const TemporaryFolder& folder, const std::vector<double>& frequencies) {
-  std::string text = "f [Hz],Re(trace),Im(trace)\n";
-  for (const double f : frequencies) text += fmt::format("{},1,0\n", f);
-  WriteBytes(folder.File("trace.csv"), text);
-  return "trace.csv";
-}
-
-EffectInstance With(const std::string& effect, const std::string& target,
-                    const std::string& parameter, double value) {
-  EffectInstance e = MakeInstance(EffectNamed(effect), target);
-  e.Set(parameter, value);
-  return e;
-}
-
-constexpr double kNear = 0.02;  // as the linear model against sines, docs/theory/linearisation.md
-
-/// What a small force on A.x does to the reading and to the set-points of that axis.
-struct MeasuredAxis {
-  Complex compliance, set_point;
-};
-
-MeasuredAxis SinesOf(const RigParameters& rig, double f, double amplitude) {
-  SineRun run{rig, {}};
-  run.sine.target = "A.x";
-  run.sine.port = "force";
-  run.sine.frequency = f;
-  run.sine.amplitude = amplitude;
-  return {run.Response({{"A.x", 1}}), run.Response({{"A.s1", 1}})};
-}
-
-void ExpectNearSines(const RigParameters& rig, const Case& c) {
-  const ResponsePredictor predictor(c, c.records[0]);
-  const auto H = predictor.Respond(rig);
-  ASSERT_EQ(H.size(), 2u);
-  const auto &set_point = H[0], &reading = H[1];  // by name: A.s1 before A.x
-  const std::vector<double>& f = c.records[0].responses.frequency;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    const MeasuredAxis measured = SinesOf(rig, f[k], 0.1);
-    EXPECT_LT(std::abs(reading[k] - measured.compliance), kNear * std::abs(reading[k]))
-        << f[k] << " Hz: " << reading[k] << " measured " << measured.compliance;
-    EXPECT_LT(std::abs(set_point[k] - measured.set_point), kNear * std::abs(set_point[k]))
-        << f[k] << " Hz: " << set_point[k] << " measured " << measured.set_point;
-  }
-}
-
-Case AxisCase(const TemporaryFolder& folder, const std::vector<double>& frequencies) {
-  const std::string file = Trace(folder, frequencies);
-  return CaseOf(folder,
-                "[[record]]\nkind = \"frf\"\ndata = \"" + file +
-                    "\"\n[record.responses]\n\"A.x/A.x.force\" = { trace = \"trace\", unit = "
-                    "\"m/N\" }\n\"A.s1/A.x.force\" = { trace = \"trace\", unit = \"A/N\" }\n");
-}
 
 TEST(ResponsePredictor, FollowsSinesInTheSwitchingEngine) {
   const TemporaryFolder folder;
   const Case c = AxisCase(folder, {20, 60, 150, 400, 1100});
   ExpectNearSines(c.rig, c);
 }
-
-class EffectInResponses : public ::testing::TestWithParam<std::tuple<EffectInstance, bool>> {};
-
-// In the linear model, or through the simulated multisine, on a grid of its own.
-TEST_P(EffectInResponses, FollowsSinesInTheSwitchingEngine) {
-  const auto& [effect, linear] = GetParam();
-  const TemporaryFolder folder;
-  const Case c = AxisCase(folder, {23, 71, 180, 410, 900});
-  RigParameters rig = c.rig;
-  rig.effects = {effect};
-  EXPECT_EQ(InLinearModel(c.rig, effect), linear);
-  ExpectNearSines(rig, c);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Effects, EffectInResponses,
-    ::testing::Values(std::tuple{With("eddy-currents", "A", "cutoff", 1500), true},
-                      std::tuple{With("sensor-lowpass", "A", "cutoff", 1200), true},
-                      std::tuple{With("sensor-gain", "A.x", "gain", 1.15), true},
-                      std::tuple{With("sensor-rotation", "A", "angle", 0.15), true},
-                      std::tuple{With("sensor-offset", "A.x", "offset", 4e-5), true},
-                      std::tuple{With("current-sensor-gain", "A", "gain", 0.85), true},
-                      std::tuple{With("current-sensor-offset", "A.coil1", "offset", 0.15), true},
-                      std::tuple{With("iron-reluctance", "A", "path", 3e-5), true},
-                      std::tuple{With("saturation", "A", "knee", 0.5), true},
-                      std::tuple{With("dead-time", "A", "time", 1e-6), true},
-                      std::tuple{With("amplifier-offset", "A", "offset", 2), true},
-                      std::tuple{With("hysteresis", "A", "coercive", 0.05), false}),
-    [](const auto& one) {
-      std::string name = std::get<0>(one.param).name;
-      std::ranges::replace(name, '-', '_');
-      return name;
-    });
 
 // A delay and a bending mode are in the linear model itself.
 TEST(ResponsePredictor, DelayAndBendingAreLinear) {
