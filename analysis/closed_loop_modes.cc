@@ -64,7 +64,7 @@ ClosedLoopModes FindModes(const OperatingPoint& point, const ClosedLoop& loop, d
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(loop.Phi);
   Require(eigen.info() == Eigen::Success, "converged eigenvalues of the closed loop");
   const MatrixXcd right = eigen.eigenvectors();
-  const MatrixXcd left = ComplexInverseOf(right);
+  const Eigen::PartialPivLU<MatrixXcd> transposed(MatrixXcd(right.transpose()));
   const Index m = loop.plant().m();
   std::vector<Eigen::MatrixXd> rows;
   for (double z : ShaftStations(point)) rows.push_back(ShaftRows(point, loop.plant(), z));
@@ -81,7 +81,8 @@ ClosedLoopModes FindModes(const OperatingPoint& point, const ClosedLoop& loop, d
     if (mode.frequency > limit) continue;
     mode.zeta = -mode.s.real() / std::abs(mode.s);
     mode.log_decrement = -2 * kPi * mode.s.real() / mode.s.imag();
-    const Eigen::ArrayXd part = (left.row(k).transpose().array() * right.col(k).array()).abs();
+    const Eigen::VectorXcd left = transposed.solve(Eigen::VectorXcd::Unit(loop.states(), k));
+    const Eigen::ArrayXd part = (left.array() * right.col(k).array()).abs();
     const double rotor = part.head(2 * m).sum(), all = part.sum();
     mode.rotor_share = std::isfinite(all) && all > 0 ? rotor / all : 0;
     mode.q = loop.scale().head(m).asDiagonal() * right.col(k).head(m);

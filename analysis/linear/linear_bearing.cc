@@ -12,22 +12,40 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// of the relaxation that stands for a damping of the flux [rad/s]: far above every switching
-// frequency
-constexpr double kDampingRate = 6e6;
+// Relaxations faster than this [rad/s] count as a damping of the flux, and all damping of a law as
+// one relaxation of the second rate: 1 % of its phase at 5 kHz. Rates cost steps of the exponential.
+constexpr double kFast = 1e6, kDampingRate = 3e6;
+
+/// The same law with at most one fast relaxation.
+LinearDrop WithoutFastRates(const LinearDrop& law) {
+  LinearDrop out;
+  out.slope = law.slope;
+  double damping = law.damping, at_once = 0;
+  for (const LinearDrop::Relaxation& r : law.relaxations) {
+    if (r.rate <= kFast) {
+      out.relaxations.push_back(r);
+      continue;
+    }
+    damping += r.weight / r.rate;
+    at_once -= r.weight;
+  }
+  if (damping > 0) {
+    out.relaxations.push_back({kDampingRate, damping * kDampingRate});
+    at_once += damping * kDampingRate;
+  }
+  for (double& slope : out.slope.v) slope += at_once;
+  return out;
+}
 
 /// Small changes of all laws of a bearing together; what has no linear law is left out.
 LinearDrop LinearIron(const StatorLanes& lanes) {
   LinearDrop sum;
-  const auto add = [&](double slope, int j) { sum.slope[j] += slope; };
   for (const FluxLaw* law : lanes.laws) {
-    const auto one = law->LinearAt(lanes.phi);
-    if (!one) continue;
-    std::vector<LinearDrop::Relaxation> relaxations = one->relaxations;
-    const double damping = one->damping * kDampingRate;
-    if (damping > 0) relaxations.push_back({kDampingRate, damping});
-    for (int j = 0; j < kLanes; ++j) add(one->slope[j] + damping, j);
-    sum.relaxations.insert(sum.relaxations.end(), relaxations.begin(), relaxations.end());
+    const auto own = law->LinearAt(lanes.phi);
+    if (!own) continue;
+    const LinearDrop one = WithoutFastRates(*own);
+    for (int j = 0; j < kLanes; ++j) sum.slope[j] += one.slope[j];
+    sum.relaxations.insert(sum.relaxations.end(), one.relaxations.begin(), one.relaxations.end());
   }
   return sum;
 }

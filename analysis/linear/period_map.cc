@@ -47,6 +47,26 @@ VectorXd Flow(const MatrixXd& A, double norm, double t, VectorXd x) {
   return x;
 }
 
+/// A to a whole power, at least 1.
+MatrixXd Power(MatrixXd A, int n) {
+  MatrixXd out;
+  for (; n > 0; n /= 2) {
+    if (n % 2 == 1) out = out.size() == 0 ? A : (out * A).eval();
+    if (n > 1) A = (A * A).eval();
+  }
+  return out;
+}
+
+/// Mean over the samples of what the current sensors read of x(0) (c x n).
+MatrixXd MeanOfState(const LinearPlant& plant, const SampleStep& step, int samples) {
+  MatrixXd rows = plant.measured / samples, out = rows;
+  for (int k = 1; k < samples; ++k) {
+    rows = (rows * step.state).eval();
+    out += rows;
+  }
+  return out;
+}
+
 /// x(T) and the mean of what the current sensors read over the samples, with what constant rates
 /// add to a sample.
 void OverPeriod(const LinearPlant& plant, const SampleStep& step, int samples, const MatrixXd& held,
@@ -85,9 +105,8 @@ PeriodMap MakePeriodMap(const OperatingPoint& point, const LinearPlant& plant) {
   rates.leftCols(m) = plant.pushed;
   if (ideal) rates.block(2 * m, m, coils, coils).setIdentity();
   const SampleStep step = StepOf(plant.A, rates, map.T / map.samples);
-  map.state.setIdentity(n, n);
-  map.feedback_of_state.setZero(coils, n);
-  OverPeriod(plant, step, map.samples, MatrixXd::Zero(n, n), map.state, map.feedback_of_state);
+  map.state = Power(step.state, map.samples);
+  map.feedback_of_state = MeanOfState(plant, step, map.samples);
   map.push.setZero(n, m);
   map.feedback_of_push.setZero(coils, m);
   OverPeriod(plant, step, map.samples, step.held.leftCols(m), map.push, map.feedback_of_push);

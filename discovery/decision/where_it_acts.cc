@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "discovery/decision/decide.h"
-#include "discovery/model/run_memo.h"
+#include "discovery/model/record_traits.h"
 #include "discovery/search/local_share.h"
 
 namespace ambrig {

@@ -5,6 +5,7 @@
 
 #include "core/math/noise.h"
 #include "core/record/missing_samples.h"
+#include "effects/catalogue.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -112,6 +113,15 @@ std::vector<const Channel*> ChannelsIn(const Record& record, const BearingParame
     if (!out.back()) return {};
   }
   return out;
+}
+
+bool Feels(const CaseRecord& record, const EffectInstance& e) {
+  const EffectDescription* d = FindEffect(e.name);
+  if (record.scenario.start != StartState::kClamped || !d || e.IsFormula()) return true;
+  const EffectNeeds& n = d->needs;
+  if (n.contact || n.free_speed) return false;
+  return !(n.levitation && !n.rotation && d->whole_periods.empty() &&
+           d->target != TargetKind::kPlaneOrRig);
 }
 
 }  // namespace ambrig

@@ -1,6 +1,6 @@
 #pragma once
-/// What a record over time holds for a model: which of its channels the engine predicts, and
-/// whether its rotor touches something.
+/// What a record over time holds for a model: which of its channels the engine predicts, whether
+/// its rotor touches something, which effects can show in it.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -38,5 +38,9 @@ std::vector<const Channel*> ChannelsIn(const Record& record, const BearingParame
 
 /// Whether the readings of a levitated record reach the auxiliary bearings.
 bool Touches(const RigParameters& rig, const CaseRecord& record);
+
+/// Whether an effect can show in a record. A held rotor does not feel what acts on a free one only,
+/// but a delay of the set-points and what turns the surface under a sensor.
+bool Feels(const CaseRecord& record, const EffectInstance& effect);
 
 }  // namespace ambrig

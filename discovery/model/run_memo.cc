@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "effects/catalogue.h"
+#include "discovery/model/record_traits.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {
@@ -35,15 +35,6 @@ bool FeelsParameter(const std::string& path, bool clamped, bool turns) {
 }
 
 }  // namespace
-
-bool Feels(const CaseRecord& record, const EffectInstance& e) {
-  const EffectDescription* d = FindEffect(e.name);
-  if (record.scenario.start != StartState::kClamped || !d || e.IsFormula()) return true;
-  const EffectNeeds& n = d->needs;
-  if (n.contact || n.free_speed) return false;
-  return !(n.levitation && !n.rotation && d->whole_periods.empty() &&
-           d->target != TargetKind::kPlaneOrRig);
-}
 
 std::string MemoKey(const RigParameters& rig, const CaseRecord& record, std::size_t index) {
   const bool clamped = record.scenario.start == StartState::kClamped,

@@ -16,10 +16,6 @@ namespace ambrig {
 /// The exact values of all that this record feels of a hypothesis (toleranced parameters, effects).
 std::string MemoKey(const RigParameters& rig, const CaseRecord& record, std::size_t index);
 
-/// Whether an effect can show in a record. A held rotor does not feel what acts on a free one only,
-/// but a delay of the set-points and what turns the surface under a sensor.
-bool Feels(const CaseRecord& record, const EffectInstance& effect);
-
 class RunMemo {
  public:
   explicit RunMemo(std::size_t most_bytes = 128'000'000) : most_(most_bytes) {}
