@@ -46,15 +46,16 @@ EffectDescription ShaftBow() {
       "and the magnets' gaps follow it once per turn, the same size at any speed.";
   d.target = TargetKind::kRig;
   d.needs.rotation = d.needs.levitation = true;
-  const auto shape = [](const char* name, const char* what) {
-    return EffectParameter{name, "m", 0, -1e-3, 1e-3, 1e-6, 3e-5, what};
+  const auto shape = [](const char* name, double usual, const char* what) {
+    return EffectParameter{name, "m", 0, -1e-3, 1e-3, 1e-6, usual, what};
   };
-  d.parameters = {shape("c", "along the mark, at z = + the largest |z| of the bearing planes"),
-                  shape("s", "90 degrees ahead of the mark"),
-                  shape("c2", "part that is equal at both ends and grows with z squared"),
-                  shape("s2", "90 degrees ahead of the mark"),
-                  shape("c3", "part that is opposite at the ends and grows with z cubed"),
-                  shape("s3", "90 degrees ahead of the mark")};
+  d.parameters = {
+      shape("c", 3e-5, "along the mark, at z = + the largest |z| of the bearing planes"),
+      shape("s", 3e-5, "90 degrees ahead of the mark"),
+      shape("c2", 1e-5, "part that is equal at both ends and grows with z squared"),
+      shape("s2", 1e-5, "90 degrees ahead of the mark"),
+      shape("c3", 1e-5, "part that is opposite at the ends and grows with z cubed"),
+      shape("s3", 1e-5, "90 degrees ahead of the mark")};
   d.off_when_null = {"c", "s", "c2", "s2", "c3", "s3"};
   d.shows_in = "slow-roll and turning records: once per turn, other at the two planes";
   d.confused_with =

@@ -17,6 +17,9 @@ namespace {
 
 // floors, of either column and of both together
 constexpr double kLeastOfOne = 0.7 * kGrossError, kLeastOfBoth = 1.5 * kGrossError;
+// floors of either column where the exchange leaves nothing but noise and the rest of the record
+// shows no more
+constexpr double kLeastOfPlain = 3, kNoiseAlone = 1.3;
 // of the error, columns of one kind and of two
 constexpr double kLeftOfKind = 0.35, kLeftOfOthers = 0.1;
 // of columns that stand still: two numbers that agree by chance leave a third
@@ -60,14 +63,17 @@ struct ExchangeSide {
   // bearing errs too. A force of the other sign makes opposite coils look exchanged. Or the
   // controller answered to this reading.
   bool carried;
+  double others;  // error of the columns that a cause at this one would move [floors]
 };
 
 ExchangeSide ExchangeSideOf(const CaseModel& model, const std::vector<GateColumn>& columns,
                             GateColumn& c) {
   const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
+  const double others = OthersOf(columns, c).error;
   return {c, error,
           c.answered || (error >= kLeastOfOne && BorneOut(columns, c) &&
-                         OthersOf(columns, c).error > std::min(kAlone * error, kGrossError))};
+                         others > std::min(kAlone * error, kGrossError)),
+          others};
 }
 
 /// Whether a third column of their kind that stands still errs by more than so many floors beside
@@ -80,16 +86,29 @@ bool OtherErrs(const std::vector<ExchangeSide>& all, const ExchangeSide& a, cons
   });
 }
 
+/// Whether two columns of one kind that move are exchanged as plainly as data can show it, however
+/// near they are to each other: both err, each shows what is expected of the other, and nothing
+/// else does.
+bool IsPlainExchange(const ExchangeSide& a, const ExchangeSide& b, double left_of_a,
+                     double left_of_b) {
+  return KindOf(a.column) == KindOf(b.column) && !StandsStill(a.column) && !StandsStill(b.column) &&
+         std::min(a.error, b.error) >= kLeastOfPlain &&
+         std::max(left_of_a, left_of_b) <= kNoiseAlone &&
+         std::max(a.others, b.others) <= kNoiseAlone;
+}
+
 /// The share of the error that an exchange of two of the columns leaves; 1 where it is not
 /// believed.
 double LeftByExchange(const CaseModel& model, const std::vector<ExchangeSide>& all,
                       const ExchangeSide& first, const ExchangeSide& second) {
   const GateColumn &a = first.column, &b = second.column;
   const double before = std::hypot(first.error, second.error);
-  if (std::min(first.error, second.error) < kLeastOfOne || before < kLeastOfBoth) return 1;
+  if (std::min(first.error, second.error) < kLeastOfPlain) return 1;
   if (first.carried && second.carried) return 1;
   const Exchanged a_as_b = Against(model, a, b), b_as_a = Against(model, b, a);
   const double left = std::hypot(a_as_b.error, b_as_a.error) / before;
+  if (IsPlainExchange(first, second, a_as_b.error, b_as_a.error)) return left;
+  if (std::min(first.error, second.error) < kLeastOfOne || before < kLeastOfBoth) return 1;
   const bool one_kind = KindOf(a) == KindOf(b);
   if (StandsStill(a) && StandsStill(b) &&
       (left > kLeftOfHeld || OtherErrs(all, first, second, kAlone * before)))

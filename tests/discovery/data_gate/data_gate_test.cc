@@ -151,17 +151,6 @@ TEST(DataGate, AForceOfTheOtherSignIsNoMistake) {
   }
 }
 
-// A logger that mixes up two coils, set-points included, changes nothing else of the bearing.
-TEST(DataGate, TwoCoilsExchangedWithTheirSetPoints) {
-  Case c = Measured();
-  for (const char* kind : {"i", "s"})
-    std::swap(SamplesOf(c, kStepRecord, std::string("A.") + kind + "3"),
-              SamplesOf(c, kStepRecord, std::string("A.") + kind + "7"));
-  const auto faults = FaultsOf(c);
-  ASSERT_EQ(faults.size(), 2U);
-  for (const DataFault& f : faults) EXPECT_EQ(f.fault, "swap") << FaultText(f);
-}
-
 // One column that runs ahead from some instant on shows what the machine did, for example a load
 // that a rub carries in the magnet's place, unless it shows exactly what the model expects some
 // rows later.
