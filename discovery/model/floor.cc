@@ -155,9 +155,13 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
         id->kind == ChannelKind::kCoilCurrent && !model.data().noise.contains(channel);
     if (const double used = model.noise_model.Used(channel); std::isfinite(used) && !of_runs)
       square = reader_noise ? square + used * used : std::max(square, used * used);
+    t.floor = std::sqrt(square);
+    // what is stated of a channel holds, but for the step of a converter
+    const bool converted = id->row().resolution.range == ChannelResolution::Range::kAdc;
+    if (square > 0 && !converted && model.data().noise.contains(channel)) continue;
     // of positions in a wrong unit the signal says nothing about what the file rounds
     const double full_scale = std::min(t.full_scale, GapOfAxis(h.rig, channel));
-    t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), full_scale));
+    t.floor = std::max(t.floor, Resolution(h.rig, id->row(), full_scale));
   }
   floor.effective_sample_size = IndependentRows(model, d1);
   floor.clean = *clean;

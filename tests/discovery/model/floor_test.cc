@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "tests/discovery/data_gate/gate_case.h"
 #include "tests/discovery/measured_case.h"
 
 namespace ambrig {
@@ -59,6 +60,27 @@ TEST(Floor, NoiseThatIsStatedCountsWhereItIsLarger) {
     const std::string& name = c.records[t.record].data.channels[t.channel].name;
     if (name == "A.x") {
       EXPECT_NEAR(t.floor, 1e-6, 0.12e-6);
+    }
+  }
+}
+
+// A speed sensor is taken to resolve a part of its signal, unless its noise is stated.
+TEST(Floor, AStatedNoiseOfTheSpeedHoldsHoweverSmall) {
+  std::vector<ExaminationRecord> chosen;
+  for (const ExaminationRecord& r : Examination(testing::RadialRig(), 4, {.free_speed = true}))
+    if (r.title == "coast-down from 900 rad/s") chosen.push_back(r);
+  ASSERT_EQ(chosen.size(), 1U);
+  for (const double stated : {0.0, 1e-3}) {
+    Case c = EmptyCase(testing::RadialRig(), chosen);
+    if (stated > 0) c.noise["omega"] = stated;
+    CaseModel model(c);
+    FindFloor(model, Hypothesis::Base(c.rig));
+    for (const Target& t : model.targets()) {
+      if (c.records[t.record].data.channels[t.channel].name != "omega") continue;
+      if (stated > 0)
+        EXPECT_DOUBLE_EQ(t.floor, stated);
+      else
+        EXPECT_GE(t.floor, 1e-3);
     }
   }
 }
