@@ -1,5 +1,6 @@
 #include "analysis/linear/linear_bearing.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/index.h"
@@ -111,7 +112,10 @@ class LinearCircuit {
   Eigen::Vector2d Direction(Index pole) const {
     return {lanes_.direction_x[LaneOf(pole)], lanes_.direction_y[LaneOf(pole)]};
   }
-  double Gap(Index pole) const { return lanes_.gap_offset[LaneOf(pole)] - Direction(pole).dot(r_); }
+  double Gap(Index pole) const {
+    return std::max(lanes_.gap_offset[LaneOf(pole)] - Direction(pole).dot(r_),
+                    kGapAtPole * lanes_.reluctance.gap0);
+  }
 
   /// δφ_p = G_p (Σ n/L δλ + φ R'(g) d·δr + Σ w δz - U), G_p = 1/(R + slope + Σ n²/L).
   MatrixXd FluxOfColumns() const {
@@ -160,6 +164,16 @@ class LinearCircuit {
   MatrixXd flux_;  // (poles x columns)
 };
 
+/// No states of the iron: matrices of no columns, or rows.
+void TakeStatesOut(LinearBearing& b) {
+  const Index n = b.I_lambda.rows();
+  b.I_z.resize(n, 0);
+  b.F_z.resize(2, 0);
+  b.Z_lambda.resize(0, n);
+  b.Z_r.resize(0, 2);
+  b.Z_z.resize(0, 0);
+}
+
 /// Of any stator: with L and J = dF/di of the coils that carry, S = dF/dr at constant current and
 /// dλ/dr = Jᵀ,  I_λ = L⁻¹,  I_r = -L⁻¹ Jᵀ,  F_λ = J L⁻¹,  F_r = S - J L⁻¹ Jᵀ.
 LinearBearing LineariseStatorNetwork(const StatorLanes& lanes, const Lane& current, double x,
@@ -195,10 +209,7 @@ LinearBearing LineariseStatorNetwork(const StatorLanes& lanes, const Lane& curre
   out.I_r = -out.I_lambda * J.transpose();
   out.F_lambda = J * out.I_lambda;
   out.F_r = network.NegativeStiffness(r, counted).topLeftCorner<2, 2>() + J * out.I_r;
-  out.I_z.resize(n, 0);
-  out.F_z.resize(2, 0);
-  out.Z_lambda.resize(0, n);
-  out.Z_r.resize(0, 2);
+  TakeStatesOut(out);
   return out;
 }
 
@@ -213,11 +224,7 @@ LinearBearing LinearBearing::AtRest() const {
   out.I_r += I_z * z_r;
   out.F_lambda += F_z * z_lambda;
   out.F_r += F_z * z_r;
-  out.I_z.resize(I_z.rows(), 0);
-  out.F_z.resize(2, 0);
-  out.Z_lambda.resize(0, Z_lambda.cols());
-  out.Z_r.resize(0, 2);
-  out.Z_z.resize(0, 0);
+  TakeStatesOut(out);
   return out;
 }
 
@@ -255,10 +262,7 @@ LinearBearing OntoPatterns(const LinearBearing& bearing, const Eigen::MatrixXd& 
   out.I_r = out.I_lambda * along * L * b.I_r;
   out.F_lambda = b.ForceOfCurrent() * pattern * out.I_lambda;
   out.F_r = b.NegativeStiffness() + b.ForceOfCurrent() * pattern * out.I_r;
-  out.I_z.resize(pattern.cols(), 0);
-  out.F_z.resize(2, 0);
-  out.Z_lambda.resize(0, pattern.cols());
-  out.Z_r.resize(0, 2);
+  TakeStatesOut(out);
   return out;
 }
 
