@@ -1,6 +1,5 @@
-/// A supply that is not stiff: source, resistance and inductance, then a capacitance at the
-/// amplifiers (actuators/electronics/bus_supply.h). Braking coils feed their energy back and lift
-/// the bus.
+/// A supply that is not stiff: source, resistance, then a capacitance at the amplifiers,
+/// C dU/dt = (U_source - U)/R - i_drawn. Braking coils feed their energy back and lift the bus.
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 
@@ -17,16 +16,13 @@ EffectDescription BusImpedance() {
       "it.";
   d.target = TargetKind::kRig;
   d.parameters = {{"resistance", "ohm", 0, 0, 100, 0.02, 0.5, "between source and capacitance"},
-                  {"capacitance", "F", 1e-3, 0, 10, 3e-4, 1e-2, "at the amplifiers"},
-                  {"inductance", "H", 0, 0, 1, 1e-5, 1e-3,
-                   "of choke and cables, in series with the resistance: the bus rings"}};
+                  {"capacitance", "F", 1e-3, 0, 10, 3e-4, 1e-2, "at the amplifiers"}};
   d.off_when_null = {"resistance"};
   d.shows_in = "the bus channel under current steps and strong excitation; all slopes together";
   d.confused_with = "a lower bus voltage; switch drops";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     plant.bus.resistance = e.Value("resistance");
     plant.bus.capacitance = e.Value("capacitance");
-    plant.bus.inductance = e.Value("inductance");
   };
   return d;
 }

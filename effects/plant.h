@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "actuators/electronics/adc.h"
-#include "actuators/electronics/bus_supply.h"
 #include "actuators/electronics/power_bridge.h"
 #include "actuators/magnetics/flux_law.h"
 #include "actuators/magnetics/stator_lanes.h"
@@ -54,6 +53,15 @@ struct BearingPlant {
   CoilHeating heating;
   Lane base_resistance;               // before heating
   double offset_x = 0, offset_y = 0;  // magnetic centre against the sensor's zero [m]
+};
+
+/// The supply at the amplifiers: stiff, or a source resistance feeding a capacitance.
+struct BusSupply {
+  double source = 0;       // [V]
+  double resistance = 0;   // [ohm], 0: stiff
+  double capacitance = 0;  // [F]
+  double voltage = 0;      // state [V]
+  bool stiff() const { return resistance <= 0; }
 };
 
 struct Plant {
