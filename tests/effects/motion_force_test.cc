@@ -179,18 +179,6 @@ TEST(MotionForce, BowRunsOppositeAtTheEndsAtAnySpeed) {
   }
 }
 
-TEST(MotionForce, BowOfAnyShapeVanishesAtTheCentreOfMass) {
-  Plant plant = PlantOf({{"shaft-bow", "rig", {{"c", 1e-6}, {"c2", 2e-6}, {"s3", 4e-6}}}});
-  MotionState s;
-  const double u = -0.135 / 0.12;
-  EXPECT_NEAR(Reading(plant, 0, s).first, 1e-6 * u + 2e-6 * u * u, 1e-19);
-  EXPECT_NEAR(Reading(plant, 0, s).second, 4e-6 * u * u * u, 1e-19);
-  double x = 0, y = 0;
-  plant.rotor.surface[0]->Add(s, 0, &x, &y);
-  EXPECT_EQ(x, 0);
-  EXPECT_EQ(y, 0);
-}
-
 TEST(MotionForce, BaseModePutsAPoleAndAZero) {
   const double mass = 40, w = 2 * kPi * 60, k = mass * w * w;
   Plant plant =
