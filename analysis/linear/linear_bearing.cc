@@ -14,7 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 // Relaxations faster than this [rad/s] count as a damping of the flux, and all damping of a law as
-// one relaxation of the second rate: 1 % of its phase at 5 kHz. Rates cost steps of the exponential.
+// one relaxation of the second rate: 1 % of its phase at 5 kHz. Rates cost steps of the
+// exponential.
 constexpr double kFast = 1e6, kDampingRate = 3e6;
 
 /// The same law with at most one fast relaxation.
