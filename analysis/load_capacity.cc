@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "actuators/magnetics/coil_network.h"
+#include "analysis/linear/bridge_point.h"
 #include "core/math/constants.h"
 #include "rig/rig_assembly.h"
 
@@ -14,13 +15,7 @@ namespace {
 
 /// Least voltage step left to a coil, up or down, as a mean over a period [V].
 double VoltageLeft(const AmplifierParameters& p, double bus, double duty) {
-  const auto mean = [&](double d) {
-    const CoilVoltage v = IdealBridgeVoltage(p, d);
-    const double T = 1 / p.switching_frequency, part[3] = {v.t1, v.t2 - v.t1, T - v.t2};
-    double sum = 0;
-    for (int q = 0; q < 3; ++q) sum += part[q] * (v.gain[q] * bus + v.drop[q]);
-    return sum / T;
-  };
+  const auto mean = [&](double d) { return BridgeAt(p, {}, bus, d).volts; };
   return std::min(mean(p.duty_max) - mean(duty), mean(duty) - mean(p.duty_min));
 }
 

@@ -46,24 +46,20 @@ SampledSystem::SampledSystem(const MatrixXd& A, const MatrixXd& B, const MatrixX
   C_ = C.cast<Complex>() * U_;
 }
 
-MatrixXcd SampledSystem::Shifted(Complex z) const {
+MatrixXcd SampledSystem::Outputs(Complex z, const MatrixXcd& right) const {
   MatrixXcd shifted = -T_;
   shifted.diagonal().array() += z;
-  return shifted;
+  return C_ * shifted.triangularView<Eigen::Upper>().solve(right);
 }
 
-MatrixXcd SampledSystem::At(Complex z) const {
-  return C_ * Shifted(z).triangularView<Eigen::Upper>().solve(B_);
-}
+MatrixXcd SampledSystem::At(Complex z) const { return Outputs(z, B_); }
 
 MatrixXcd SampledSystem::At(Complex z, const std::vector<Index>& inputs) const {
-  const MatrixXcd right = B_(Eigen::all, inputs);
-  return C_ * Shifted(z).triangularView<Eigen::Upper>().solve(right);
+  return Outputs(z, B_(Eigen::all, inputs));
 }
 
 Eigen::VectorXcd SampledSystem::Under(Complex z, const Eigen::VectorXcd& added) const {
-  const Eigen::VectorXcd right = U_.adjoint() * added;
-  return C_ * Shifted(z).triangularView<Eigen::Upper>().solve(right);
+  return Outputs(z, U_.adjoint() * added);
 }
 
 }  // namespace ambrig

@@ -23,7 +23,8 @@ class SampledSystem {
   const Eigen::VectorXcd& eigenvalues() const { return eigenvalues_; }
 
  private:
-  Eigen::MatrixXcd Shifted(std::complex<double> z) const;
+  /// C U (z - T)⁻¹ of right sides that stand in the triangular form.
+  Eigen::MatrixXcd Outputs(std::complex<double> z, const Eigen::MatrixXcd& right) const;
 
   Eigen::VectorXcd eigenvalues_;
   Eigen::MatrixXcd T_, U_, B_, C_;  // B_ = Uᴴ B, C_ = C U

@@ -10,7 +10,6 @@
 ///           (at the magnets), A.x.magnet [N] (force on the rotor), A.i1 [A] (coil current);
 ///             NAME.x [m]
 ///           shaft at a named plane
-///
 #include "analysis/closed_loop.h"
 #include "analysis/sampled_system.h"
 

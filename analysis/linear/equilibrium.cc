@@ -20,17 +20,19 @@ constexpr double kNoLever = 1e-9;  // of a force on a coordinate [-, m]: zero bu
 struct Balance {
   const Plant& plant;
   const std::vector<BearingControl>& control;
-  const bool true_parts, voltage_mode;
+  const AmplifierParameters& amplifier;
+  const bool true_parts;
   std::vector<std::unique_ptr<CoilNetwork>> networks;  // nullptr: of any stator
   std::vector<std::size_t> first_axis;                 // per bearing
   std::size_t axes = 0, dof = 0;
   std::vector<bool> fixed;  // coordinates that no force moves: held at zero
 
-  Balance(const Plant& p, const std::vector<BearingControl>& c, EquilibriumOf parts, bool voltage)
+  Balance(const Plant& p, const std::vector<BearingControl>& c, const AmplifierParameters& a,
+          EquilibriumOf parts)
       : plant(p),
         control(c),
+        amplifier(a),
         true_parts(parts == EquilibriumOf::kTrueParts),
-        voltage_mode(voltage),
         dof(static_cast<std::size_t>(p.rotor.dof())),
         fixed(dof, false) {
     for (const BearingPlant& b : plant.bearings) {
@@ -61,9 +63,9 @@ struct Balance {
 
   CoilVector Carried(std::size_t k, const double* force) const {
     CoilVector out = SetPoints(k, force);
-    if (true_parts && !voltage_mode)
+    if (true_parts)
       for (int j = 0; j < control[k].coils; ++j)
-        out[j] = CarriedCurrent(plant.bearings[k], j, out[j]);
+        out[j] = CarriedCurrent(amplifier, plant.bearings[k], j, out[j]);
     return out;
   }
 
@@ -94,7 +96,7 @@ struct Balance {
   PlanePoint Reading(const MotionState& s, const BearingPlant& b) const {
     const PlanePoint at = plant.rotor.Position(s, b.sensor.map);
     if (!true_parts) return at;
-    const Eigen::Vector2d reading = LineariseSensor(b.sensor, s, at.x, at.y).reading;
+    const Eigen::Vector2d reading = ReadingAt(b.sensor, s, at.x, at.y);
     return {reading.x(), reading.y()};
   }
 
@@ -128,7 +130,9 @@ std::size_t AxesOf(const BearingPlant& bearing) {
   return bearing.thrust || bearing.opposed ? 1 : 2;
 }
 
-double CarriedCurrent(const BearingPlant& bearing, int coil, double set_point) {
+double CarriedCurrent(const AmplifierParameters& amplifier, const BearingPlant& bearing, int coil,
+                      double set_point) {
+  if (amplifier.voltage_mode) return set_point;
   const CurrentSensor& sensor = bearing.current_sensor[AsSize(coil)];
   const double current = (set_point - sensor.offset) / sensor.gain;
   return bearing.lanes.unipolar ? std::max(current, 0.0) : current;
@@ -136,7 +140,7 @@ double CarriedCurrent(const BearingPlant& bearing, int coil, double set_point) {
 
 Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Plant& plant,
                                  const std::vector<BearingControl>& control, EquilibriumOf parts) {
-  const Balance balance(plant, control, parts, rig.amplifier.voltage_mode);
+  const Balance balance(plant, control, rig.amplifier, parts);
   const std::size_t n = balance.axes + balance.dof;
   // Sizes that matter: the rotor's weight, a micrometre, the acceleration of gravity.
   double g = 0;

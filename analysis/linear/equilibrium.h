@@ -38,8 +38,10 @@ enum class EquilibriumOf {
   kTrueParts    // maps of the position sensors, errors of the current sensors, laws of the iron
 };
 
-/// The current [A] at which the sensor of coil `coil` reads `set_point` [A].
-double CarriedCurrent(const BearingPlant& bearing, int coil, double set_point);
+/// The current [A] that a coil carries under `set_point` [A]: under a current loop that at which
+/// its sensor reads it.
+double CarriedCurrent(const AmplifierParameters& amplifier, const BearingPlant& bearing, int coil,
+                      double set_point);
 
 /// `rig`: true values, for the first guess; `control`: the maps between forces and set-points.
 /// kTrueParts: the laws of the plant's iron are left as they settled last.

@@ -60,13 +60,11 @@ class LinearCircuit {
       : lanes_(lanes), iron_(LinearIron(lanes)), r_(r) {
     for (int j = 0; j < lanes.coils; ++j)
       if (!lanes.open[AsSize(j)] && (!lanes.unipolar || lanes.i[j] > 0)) coils_.push_back(j);
-    const Index k = static_cast<Index>(iron_.relaxations.size());
-    states_ = k * Poles();
     flux_ = FluxOfColumns();
   }
 
   LinearBearing Derivatives() const {
-    const Index n = Coils(), s = states_;
+    const Index n = Coils(), s = States();
     LinearBearing out;
     out.coils = coils_;
     out.current.resize(n);
@@ -106,6 +104,7 @@ class LinearCircuit {
   Index Poles() const { return lanes_.coils / PerPole(); }
   Index Coils() const { return static_cast<Index>(coils_.size()); }
   Index Relaxations() const { return static_cast<Index>(iron_.relaxations.size()); }
+  Index States() const { return Poles() * Relaxations(); }
   Index PoleOf(int coil) const { return coil / PerPole(); }
   int CoilAt(Index k) const { return coils_[static_cast<std::size_t>(k)]; }
   int LaneOf(Index pole) const { return static_cast<int>(pole) * PerPole(); }
@@ -120,7 +119,7 @@ class LinearCircuit {
   /// δφ_p = G_p (Σ n/L δλ + φ R'(g) d·δr + Σ w δz - U), G_p = 1/(R + slope + Σ n²/L).
   MatrixXd FluxOfColumns() const {
     const Index n = Coils();
-    MatrixXd m = MatrixXd::Zero(Poles(), n + 2 + states_);
+    MatrixXd m = MatrixXd::Zero(Poles(), n + 2 + States());
     Eigen::VectorXd own(Poles());
     for (Index p = 0; p < Poles(); ++p) {
       const int lane = LaneOf(p);
@@ -160,7 +159,6 @@ class LinearCircuit {
   LinearDrop iron_;
   Eigen::Vector2d r_;
   std::vector<int> coils_;
-  Index states_ = 0;
   MatrixXd flux_;  // (poles x columns)
 };
 
@@ -230,11 +228,14 @@ LinearBearing LinearBearing::AtRest() const {
 
 Eigen::MatrixXd LinearBearing::Inductance() const { return InverseOf(AtRest().I_lambda); }
 
-Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return AtRest().F_lambda * Inductance(); }
+Eigen::MatrixXd LinearBearing::ForceOfCurrent() const {
+  const LinearBearing rest = AtRest();
+  return rest.F_lambda * InverseOf(rest.I_lambda);
+}
 
 Eigen::Matrix2d LinearBearing::NegativeStiffness() const {
   const LinearBearing rest = AtRest();
-  return rest.F_r - rest.F_lambda * InverseOf(rest.I_lambda) * rest.I_r;
+  return rest.F_r - rest.ForceOfCurrent() * rest.I_r;
 }
 
 LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y) {

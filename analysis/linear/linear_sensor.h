@@ -15,6 +15,10 @@ struct LinearSensor {
   std::vector<double> lags;  // first-order lags that the reading passes, time constants [s]
 };
 
+/// The reading [m] with the shaft at (x, y) [m], when lags have settled, without signals.
+Eigen::Vector2d ReadingAt(const PositionSensor& sensor, const MotionState& motion, double x,
+                          double y);
+
 /// With the shaft at (x, y) [m] of the sensor's plane; `motion`: the rest of the rotor's state.
 LinearSensor LineariseSensor(const PositionSensor& sensor, const MotionState& motion, double x,
                              double y);

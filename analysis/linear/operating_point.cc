@@ -25,9 +25,7 @@ OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known,
 void OperatingPoint::PlaceCoils(std::size_t k) {
   const BearingControl& own = control()[k];
   const BearingPlant& bearing = plant().bearings[k];
-  AmplifierParameters amplifier = rig().amplifier;
-  const bool follows = !amplifier.voltage_mode;  // what its sensor reads
-  amplifier.voltage_mode = false;                // the duty that holds a current is the same
+  const AmplifierParameters& amplifier = rig().amplifier;
   const double* f = force.data() + FirstAxis(k);
   const double fx = f[0], fy = AxisCount(k) > 1 ? f[1] : 0;
   const auto set = own.map.SetPoints(fx, fy);
@@ -37,7 +35,7 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
   std::vector<CoilPoint> placed(AsSize(own.coils));
   for (int j = 0; j < own.coils; ++j) {
     CoilPoint& c = placed[AsSize(j)];
-    c.current = follows ? CarriedCurrent(bearing, j, set[j]) : set[j];
+    c.current = CarriedCurrent(amplifier, bearing, j, set[j]);
     c.commanded = set[j] == free[j];
     c.duty = HoldingDuty(k, j, std::max(c.current, 1.01 * kInterruptedCurrent));
     const std::string name = CoilName(own.name, j);

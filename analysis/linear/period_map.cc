@@ -17,9 +17,10 @@ using Eigen::VectorXd;
 
 /// What moves the plant over one ADC sample.
 struct SampleStep {
-  double h = 0;    // [s]
-  MatrixXd state;  // e^{Ah}
-  MatrixXd held;   // integral of e^{As} over the sample, of given constant rates (n x columns)
+  double h = 0;     // [s]
+  double norm = 0;  // of A, the largest sum of a column [1/s]
+  MatrixXd state;   // e^{Ah}
+  MatrixXd held;    // integral of e^{As} over the sample, of given constant rates (n x columns)
 };
 
 SampleStep StepOf(const MatrixXd& A, const MatrixXd& rates, double h) {
@@ -28,7 +29,8 @@ SampleStep StepOf(const MatrixXd& A, const MatrixXd& rates, double h) {
   augmented.topLeftCorner(n, n) = A * h;
   augmented.topRightCorner(n, r) = rates * h;
   const MatrixXd flow = augmented.exp();
-  return {h, flow.topLeftCorner(n, n), flow.topRightCorner(n, r)};
+  const double norm = A.cwiseAbs().colwise().sum().maxCoeff();
+  return {h, norm, flow.topLeftCorner(n, n), flow.topRightCorner(n, r)};
 }
 
 /// e^{At} x by Taylor's series over parts of t in which |A| t is about 1.
@@ -80,13 +82,12 @@ void OverPeriod(const LinearPlant& plant, const SampleStep& step, int samples, c
 /// The same of an impulse `kick` at `at` [s] from rest.
 void AfterKick(const LinearPlant& plant, const SampleStep& step, int samples, double at,
                const VectorXd& kick, MatrixXd& x, MatrixXd& feedback) {
-  const double norm = plant.A.cwiseAbs().colwise().sum().maxCoeff();
   for (int k = 0; k < samples; ++k) {
     const double end = (k + 1) * step.h;
     feedback += plant.measured * x / samples;
     if (at >= end) continue;
     if (at >= k * step.h)
-      x = Flow(plant.A, norm, end - at, kick);
+      x = Flow(plant.A, step.norm, end - at, kick);
     else
       x = (step.state * x).eval();
   }

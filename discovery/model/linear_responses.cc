@@ -108,8 +108,7 @@ void LinearResponses::Hold(const RigParameters& drawing, const Scenario& scenari
             BridgeAt(point.rig().amplifier, b.bridge[AsSize(j)], point.plant().bus.voltage, c.duty);
         current[j] = at.volts / b.base_resistance[j];
       } else {
-        if (!point.nominal().amplifier.voltage_mode && current[j] != 0)
-          current[j] = CarriedCurrent(b, j, current[j]);
+        if (current[j] != 0) current[j] = CarriedCurrent(point.rig().amplifier, b, j, current[j]);
         c.duty = point.HoldingDuty(k, j, current[j]);
       }
       c.current = current[j];
