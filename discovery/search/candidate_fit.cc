@@ -6,6 +6,7 @@
 
 #include "discovery/search/likelihood.h"
 #include "discovery/search/probes.h"
+#include "discovery/search/stage_ratios.h"
 #include "discovery/search/start_search.h"
 
 namespace ambrig {
@@ -23,6 +24,9 @@ FitResult TryFit(const CaseModel& model, const Hypothesis& h, const FitOptions& 
   }
 }
 
+// trust regions: about a signature that promises something, and of what is far from linear
+constexpr double kLongSteps = 1e4, kShortSteps = 10;
+
 FitOptions Brief(const FitResult& now, double effective_sample_size) {
   FitOptions brief;
   brief.effective_sample_size = effective_sample_size;
@@ -30,9 +34,23 @@ FitOptions Brief(const FitResult& now, double effective_sample_size) {
   brief.reached = now.ratio_fit;
   brief.iterations = 4;
   brief.passes = 1;
+  brief.trust_region = kLongSteps;
+  brief.tolerance = 1e-4;
   brief.least_share = 0.01;
   brief.sensitivities = false;
   return brief;
+}
+
+/// A fit, and one with short steps where it gains nothing although the signature promises much.
+FitResult FitAsPromised(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                        const Candidate& candidate, const FitOptions& options) {
+  constexpr double kMuch = 0.3;  // of the error
+  FitResult fit = TryFit(model, start, options);
+  const bool gains = fit.converged && fit.ratio_fit < now.ratio_fit;
+  if (gains || ExplainedShare(now.ratio_fit, candidate.ratio_fit) < kMuch) return fit;
+  FitOptions shorter = options;
+  shorter.trust_region = kShortSteps;
+  return TryFit(model, start, shorter);
 }
 
 /// Size and frequency first, the damping as it was sought, then all together: a damping let loose
@@ -149,7 +167,10 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
                      double effective_sample_size) {
   FitOptions brief = Brief(now, effective_sample_size);
   brief.lent = static_cast<std::size_t>(now.jacobian.cols());
-  if (candidate.narrow) brief.iterations = 12;
+  // weighed by what it promises: by the weight of an error that it takes away, the prior would hold
+  // the rig parameters where they stood in for it
+  if (candidate.ratio_fit > 0) brief.reached = std::min(brief.reached, candidate.ratio_fit);
+  if (candidate.narrow) brief.iterations = 12, brief.trust_region = kShortSteps;
   std::vector<EffectInstance> starts = {candidate.effect};
   starts.insert(starts.end(), candidate.other_starts.begin(), candidate.other_starts.end());
   if (candidate.narrow) starts = BestOf(model, now, starts, effective_sample_size);
@@ -160,7 +181,8 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
   for (const EffectInstance& start : starts) {
     Hypothesis h = now.hypothesis;
     h.AddEffect(start);
-    FitResult fit = candidate.narrow ? FitResonance(model, h, brief) : TryFit(model, h, brief);
+    FitResult fit = candidate.narrow ? FitResonance(model, h, brief)
+                                     : FitAsPromised(model, now, h, candidate, brief);
     if (!fit.converged || Score(model, fit, effective_sample_size) >= best_score) continue;
     best_score = Score(model, fit, effective_sample_size);
     best = std::move(fit);
@@ -178,6 +200,7 @@ FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& 
   full.base_jacobian = &now.jacobian;
   full.reached = now.ratio_fit;
   full.iterations = 6;
+  full.trust_region = kLongSteps;
   full.tolerance = 1e-4;
   FitResult fit = TryFit(model, start, full);
   const std::optional<Hypothesis> simpler = WithoutOptionalShapes(start);

@@ -19,12 +19,6 @@ constexpr double kRivalExplains = 0.5;   // of the error above the noise
 constexpr double kOpenShare =
     0.2;  // what a full fit may still gain of what the best fit has gained
 
-/// Of fitted and unseen records alike.
-double BothRatios(double fitted, double unseen) {
-  return std::hypot(fitted, unseen) / std::sqrt(2.0);
-}
-double BothRatios(const FitResult& fit) { return BothRatios(fit.ratio_fit, fit.ratio_validate); }
-
 /// The best fit so far explains nearly all, and this candidate promises far less.
 bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
              const Candidate& next) {
@@ -273,23 +267,6 @@ class Ranker {
 };
 
 }  // namespace
-
-std::string Named(const EffectInstance& e) { return NameAtTarget(e.name, e.target); }
-
-void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& ranking) {
-  if (ranking.empty()) return;
-  std::vector<double> scores, shares;
-  for (const RankedEffect& r : ranking) {
-    scores.push_back(r.score);
-    shares.push_back(ExplainedShare(BothRatios(before), BothRatios(r.RatioFit(), r.RatioUnseen())));
-  }
-  const std::vector<double> probability = Probabilities(scores, shares);
-  for (std::size_t k = 0; k < ranking.size(); ++k) ranking[k].probability = probability[k];
-}
-
-void SortByScore(std::vector<RankedEffect>& ranking) {
-  std::ranges::stable_sort(ranking, {}, &RankedEffect::score);
-}
 
 EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round) {
   return Ranker(setting, now, round).Run();

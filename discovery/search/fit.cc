@@ -77,15 +77,17 @@ class SolverCost : public ceres::CostFunction {
   const FitProblem& problem_;
 };
 
-/// Ends a pass with the step that gains a small share of what the pass has gained.
+/// Ends a pass with the step that gains a small share of what the pass has gained, and little.
 class EnoughGained : public ceres::IterationCallback {
  public:
   explicit EnoughGained(double least_share) : least_share_(least_share) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     if (step.iteration == 0 || !step.step_is_successful) return ceres::SOLVER_CONTINUE;
     gained_ += step.cost_change;
-    return step.cost_change < least_share_ * gained_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                     : ceres::SOLVER_CONTINUE;
+    constexpr double kLittle = 1;  // of log posterior
+    return step.cost_change < std::min(kLittle, least_share_ * gained_)
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
 
  private:

@@ -18,10 +18,12 @@ struct FitOptions {
   // the rig parameters are taken again in the second pass, later where a parameter moved by more
   // than 1 sd.
   int passes = 4;
-  double trust_region = 10;  // at the start of a pass: how far a step is believed
-  double tolerance = 1e-3;   // of the cost: a step that gains less is the last
-  // of what a pass gained so far: a step that gains less is its last; 0: the tolerance alone
-  // decides
+  // At the start of a pass: how far a step is believed. A small one shortens most the steps along
+  // valleys where an effect and rig parameters stand in for each other.
+  double trust_region = 10;
+  double tolerance = 1e-3;  // of the cost: a step that gains less is the last
+  // of what a pass gained so far: a step that gains less, and little, is its last; 0: the tolerance
+  // alone decides
   double least_share = 0;
   // of 2 log posterior: a pass that gains less is the last; 0: one that lowers the ratio by less
   // than 2 %

@@ -11,6 +11,7 @@ namespace {
 constexpr double kLaw = 4;
 // sd of the share that a law with other details explains, over what the best law leaves
 constexpr double kLawVariation = 0.35;
+constexpr double kExtra = 4;  // price of a number that only shapes a law further
 }  // namespace
 
 int PricedParameters(int count) { return std::min(count, 6); }
@@ -60,13 +61,15 @@ double Score(const CaseModel& model, const FitResult& fit, double effective_samp
 }
 
 std::vector<double> Probabilities(const std::vector<double>& scores,
-                                  const std::vector<double>& shares) {
+                                  const std::vector<double>& shares,
+                                  const std::vector<int>& extras) {
   std::vector<double> out;
   double sum = 0;
   for (std::size_t k = 0; k < scores.size(); ++k) {
     const double sd = kLawVariation * (1 - shares[0]), less = std::max(0.0, shares[0] - shares[k]);
     const double by_score = -0.5 * (scores[k] - scores[0]),
-                 by_share = sd > 0 ? -0.5 * std::pow(less / sd, 2) : by_score;
+                 room = kExtra * std::max(0, extras[k] - extras[0]),
+                 by_share = sd > 0 ? -0.5 * (std::pow(less / sd, 2) + room) : by_score;
     out.push_back(std::exp(std::max(by_score, by_share)));
     sum += out.back();
   }

@@ -36,8 +36,10 @@ double Score(const CaseModel& model, const FitResult& fit, double effective_samp
 /// above the noise that they explain (0 to 1), best score first. Where the best leaves a part 1
 /// - s, no law of the list is exact, and the same law with other details would explain s ± 0.35
 /// (1 - s): laws whose shares differ by no more than that are not told apart, whatever their
-/// likelihoods say.
+/// likelihoods say. `extras`: numbers of each law that only shape it further. They give it room
+/// that the others do not have, so where the shares decide each counts against it.
 std::vector<double> Probabilities(const std::vector<double>& scores,
-                                  const std::vector<double>& shares);
+                                  const std::vector<double>& shares,
+                                  const std::vector<int>& extras);
 
 }  // namespace ambrig

@@ -179,6 +179,19 @@ TEST(MotionForce, BowRunsOppositeAtTheEndsAtAnySpeed) {
   }
 }
 
+TEST(MotionForce, BowOfAnyShapeLiesInOnePlaneAndVanishesAtTheCentreOfMass) {
+  Plant plant =
+      PlantOf({{"shaft-bow", "rig", {{"c", 3e-6}, {"s", 4e-6}, {"even", 2}, {"cubic", -3}}}});
+  MotionState s;
+  const double u = -0.135 / 0.12, shape = (u + 2 * u * u - 3 * u * u * u) / std::sqrt(14);
+  EXPECT_NEAR(Reading(plant, 0, s).first, 3e-6 * shape, 1e-19);
+  EXPECT_NEAR(Reading(plant, 0, s).second, 4e-6 * shape, 1e-19);
+  double x = 0, y = 0;
+  plant.rotor.surface[0]->Add(s, 0, &x, &y);
+  EXPECT_EQ(x, 0);
+  EXPECT_EQ(y, 0);
+}
+
 TEST(MotionForce, BaseModePutsAPoleAndAZero) {
   const double mass = 40, w = 2 * kPi * 60, k = mass * w * w;
   Plant plant =

@@ -80,7 +80,7 @@ TEST(Score, AnEffectCostsItsLawOnceAndItsNumbersEach) {
 
 // At the floor the scores alone tell two laws apart.
 TEST(Probabilities, OfAnExactLawAreThoseOfTheLikelihood) {
-  const std::vector<double> p = Probabilities({10, 12, 30}, {1.0, 0.99, 0.5});
+  const std::vector<double> p = Probabilities({10, 12, 30}, {1.0, 0.99, 0.5}, {0, 0, 0});
   const double sum = 1 + std::exp(-1.0) + std::exp(-10.0);
   EXPECT_NEAR(p[0], 1 / sum, 1e-12);
   EXPECT_NEAR(p[1], std::exp(-1.0) / sum, 1e-12);
@@ -89,11 +89,19 @@ TEST(Probabilities, OfAnExactLawAreThoseOfTheLikelihood) {
 
 // The best leaves 40 %: a law that explains 10 % less than it is not excluded by any score.
 TEST(Probabilities, LawsOfWhichNoneFitsAreNotToldApart) {
-  const std::vector<double> p = Probabilities({100, 300}, {0.6, 0.5});
+  const std::vector<double> p = Probabilities({100, 300}, {0.6, 0.5}, {0, 0});
   const double other = std::exp(-0.5 * std::pow(0.1 / (0.35 * 0.4), 2));
   EXPECT_NEAR(p[1], other / (1 + other), 1e-12);
   // the same difference beside a law that explains 98 %
-  EXPECT_LT(Probabilities({100, 300}, {0.98, 0.88})[1], 1e-20);
+  EXPECT_LT(Probabilities({100, 300}, {0.98, 0.88}, {0, 0})[1], 1e-20);
+}
+
+TEST(Probabilities, RoomOfALawCountsAgainstItWhereSharesDecide) {
+  const double other = std::exp(-0.5 * (std::pow(0.1 / (0.35 * 0.4), 2) + 2 * 4));
+  EXPECT_NEAR(Probabilities({100, 300}, {0.6, 0.5}, {0, 2})[1], other / (1 + other), 1e-12);
+  // the best is not made better by having more
+  EXPECT_EQ(Probabilities({100, 300}, {0.6, 0.5}, {2, 0}),
+            Probabilities({100, 300}, {0.6, 0.5}, {0, 0}));
 }
 
 }  // namespace
