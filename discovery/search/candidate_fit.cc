@@ -13,6 +13,8 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kLongSteps = 1e4, kShortSteps = 10;  // trust regions
+
 /// A start that the plant refuses (a second mode of a kind, say) is no candidate.
 FitResult TryFit(const CaseModel& model, const Hypothesis& h, const FitOptions& options) {
   try {
@@ -24,17 +26,33 @@ FitResult TryFit(const CaseModel& model, const Hypothesis& h, const FitOptions& 
   }
 }
 
-// trust regions: about a signature that promises something, and of what is far from linear
-constexpr double kLongSteps = 1e4, kShortSteps = 10;
+/// The trust region of a fit of `h`: that of long steps where the sizes of all effects that were
+/// found act nearly in proportion. One that vanishes at infinity (a knee, a cutoff) does not, nor
+/// does one whose shape may take both signs.
+double TrustRegion(const CaseModel& model, const Hypothesis& h) {
+  const auto in_proportion = [](const EffectInstance& e) {
+    if (e.IsFormula()) return false;
+    const EffectDescription& d = EffectNamed(e.name);
+    return !IsResonance(d) && !d.needs.contact &&
+           std::ranges::none_of(d.parameters, [&](const EffectParameter& p) {
+             return d.Switches(p) ? !std::isfinite(p.null_value) : ShapesFurther(p);
+           });
+  };
+  const std::vector<EffectInstance>& effects = h.rig.effects;
+  const auto found = static_cast<std::ptrdiff_t>(model.data().rig.effects.size());
+  return std::all_of(effects.begin() + found, effects.end(), in_proportion) ? kLongSteps
+                                                                            : kShortSteps;
+}
 
-FitOptions Brief(const FitResult& now, double effective_sample_size) {
+FitOptions Brief(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                 double effective_sample_size) {
   FitOptions brief;
   brief.effective_sample_size = effective_sample_size;
   brief.base_jacobian = &now.jacobian;
   brief.reached = now.ratio_fit;
   brief.iterations = 4;
   brief.passes = 1;
-  brief.trust_region = kLongSteps;
+  brief.trust_region = TrustRegion(model, start);
   brief.tolerance = 1e-4;
   brief.least_share = 0.01;
   brief.sensitivities = false;
@@ -47,7 +65,9 @@ FitResult FitAsPromised(const CaseModel& model, const FitResult& now, const Hypo
   constexpr double kMuch = 0.3;  // of the error
   FitResult fit = TryFit(model, start, options);
   const bool gains = fit.converged && fit.ratio_fit < now.ratio_fit;
-  if (gains || ExplainedShare(now.ratio_fit, candidate.ratio_fit) < kMuch) return fit;
+  if (gains || options.trust_region == kShortSteps ||
+      ExplainedShare(now.ratio_fit, candidate.ratio_fit) < kMuch)
+    return fit;
   FitOptions shorter = options;
   shorter.trust_region = kShortSteps;
   return TryFit(model, start, shorter);
@@ -160,17 +180,19 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
 
 FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothesis& start,
                      double effective_sample_size) {
-  return TryFit(model, start, Brief(now, effective_sample_size));
+  return TryFit(model, start, Brief(model, now, start, effective_sample_size));
 }
 
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
                      double effective_sample_size) {
-  FitOptions brief = Brief(now, effective_sample_size);
+  Hypothesis first = now.hypothesis;
+  first.AddEffect(candidate.effect);
+  FitOptions brief = Brief(model, now, first, effective_sample_size);
   brief.lent = static_cast<std::size_t>(now.jacobian.cols());
   // weighed by what it promises: by the weight of an error that it takes away, the prior would hold
   // the rig parameters where they stood in for it
   if (candidate.ratio_fit > 0) brief.reached = std::min(brief.reached, candidate.ratio_fit);
-  if (candidate.narrow) brief.iterations = 12, brief.trust_region = kShortSteps;
+  if (candidate.narrow) brief.iterations = 12;
   std::vector<EffectInstance> starts = {candidate.effect};
   starts.insert(starts.end(), candidate.other_starts.begin(), candidate.other_starts.end());
   if (candidate.narrow) starts = BestOf(model, now, starts, effective_sample_size);
@@ -200,7 +222,7 @@ FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& 
   full.base_jacobian = &now.jacobian;
   full.reached = now.ratio_fit;
   full.iterations = 6;
-  full.trust_region = kLongSteps;
+  full.trust_region = TrustRegion(model, start);
   full.tolerance = 1e-4;
   FitResult fit = TryFit(model, start, full);
   const std::optional<Hypothesis> simpler = WithoutOptionalShapes(start);

@@ -18,6 +18,10 @@ bool IsOptionalShape(const EffectParameter& p) {
   return std::isfinite(p.null_value) && p.lo <= p.null_value && p.null_value < p.typical_lo;
 }
 
+bool ShapesFurther(const EffectParameter& p) {
+  return p.typical_lo < p.null_value && p.null_value < p.typical_hi;
+}
+
 namespace {
 
 double Middle(const EffectParameter& p) {

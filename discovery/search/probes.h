@@ -27,6 +27,10 @@ bool IsResonance(const EffectDescription& d);
 /// its usual range and is possible (laminations so thick that their thickness does not show).
 bool IsOptionalShape(const EffectParameter& p);
 
+/// Whether a parameter that does not switch its effect only shapes the law further: its null lies
+/// inside of its usual range.
+bool ShapesFurther(const EffectParameter& p);
+
 /// Frequencies are tried where the error stands out (`peaks`) and over their usual range.
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target,
                                  const CaseModel& model, const ResidualPeaks& peaks);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discovery/search/likelihood.h"
+#include "discovery/search/probes.h"
 
 namespace ambrig {
 
@@ -22,8 +23,7 @@ int RankedEffect::FreeExtras() const {
     if (f.effect < 0) return false;
     const EffectInstance& e = fit.hypothesis.rig.effects[static_cast<std::size_t>(f.effect)];
     const EffectParameter& p = e.table[f.row];
-    return IsSameName(e, effect) && !d.Switches(p) && p.typical_lo < p.null_value &&
-           p.null_value < p.typical_hi;
+    return IsSameName(e, effect) && !d.Switches(p) && ShapesFurther(p);
   };
   return static_cast<int>(std::ranges::count_if(fit.hypothesis.free, extra));
 }

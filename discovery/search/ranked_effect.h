@@ -24,8 +24,7 @@ struct RankedEffect {
   double RatioFit() const { return shaped ? shaped->fit : fit.ratio_fit; }
   double RatioUnseen() const { return shaped ? shaped->validate : fit.ratio_validate; }
 
-  /// Free parameters of the effect that only shape its law further: their null lies inside of their
-  /// usual range.
+  /// Free parameters of the effect that only shape its law further (probes.h).
   int FreeExtras() const;
 };
 
