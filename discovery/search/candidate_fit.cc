@@ -6,7 +6,6 @@
 
 #include "discovery/search/likelihood.h"
 #include "discovery/search/probes.h"
-#include "discovery/search/stage_ratios.h"
 #include "discovery/search/start_search.h"
 
 namespace ambrig {
@@ -59,18 +58,21 @@ FitOptions Brief(const CaseModel& model, const FitResult& now, const Hypothesis&
   return brief;
 }
 
-/// A fit, and one with short steps where it gains nothing although the signature promises much.
-FitResult FitAsPromised(const CaseModel& model, const FitResult& now, const Hypothesis& start,
-                        const Candidate& candidate, const FitOptions& options) {
-  constexpr double kMuch = 0.3;  // of the error
+/// A fit; where it leaves far more than the signature promises also one with short steps, and the
+/// better of the two: long ones may end in another valley.
+FitResult FitAsPromised(const CaseModel& model, const Hypothesis& start, const Candidate& candidate,
+                        const FitOptions& options) {
+  constexpr double kFar = 2, kNear = 0.05;  // of the squared ratio above the noise
+  const auto left = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
   FitResult fit = TryFit(model, start, options);
-  const bool gains = fit.converged && fit.ratio_fit < now.ratio_fit;
-  if (gains || options.trust_region == kShortSteps ||
-      ExplainedShare(now.ratio_fit, candidate.ratio_fit) < kMuch)
-    return fit;
+  const bool as_promised =
+      fit.converged && left(fit.ratio_fit) < kFar * left(candidate.ratio_fit) + kNear;
+  if (as_promised || options.trust_region == kShortSteps) return fit;
   FitOptions shorter = options;
   shorter.trust_region = kShortSteps;
-  return TryFit(model, start, shorter);
+  FitResult other = TryFit(model, start, shorter);
+  const bool better = other.converged && (!fit.converged || other.ratio_fit < fit.ratio_fit);
+  return better ? other : fit;
 }
 
 /// Size and frequency first, the damping as it was sought, then all together: a damping let loose
@@ -204,7 +206,7 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
     Hypothesis h = now.hypothesis;
     h.AddEffect(start);
     FitResult fit = candidate.narrow ? FitResonance(model, h, brief)
-                                     : FitAsPromised(model, now, h, candidate, brief);
+                                     : FitAsPromised(model, h, candidate, brief);
     if (!fit.converged || Score(model, fit, effective_sample_size) >= best_score) continue;
     best_score = Score(model, fit, effective_sample_size);
     best = std::move(fit);
