@@ -21,17 +21,20 @@ namespace {
 class Bow : public SurfaceTerm {
  public:
   Bow(double c, double s, double even, double cubic, double reference)
-      : c_(c), s_(s), even_(even), cubic_(cubic), reference_(reference) {}
+      : c_(c / std::hypot(1, even, cubic)),
+        s_(s / std::hypot(1, even, cubic)),
+        even_(even),
+        cubic_(cubic),
+        reference_(reference) {}
   void Add(const MotionState& state, double z, double* dx, double* dy) const override {
-    const double u = z / reference_,
-                 shape = u * (1 + u * (even_ + u * cubic_)) / std::hypot(1, even_, cubic_);
+    const double u = z / reference_, shape = u * (1 + u * (even_ + u * cubic_));
     const Turned b = turning_.At(c_ * shape, s_ * shape, state.theta);
     *dx += b.x;
     *dy += b.y;
   }
 
  private:
-  double c_, s_;         // [m]
+  double c_, s_;         // over the root [m]
   double even_, cubic_;  // [-]
   double reference_;     // [m]
   mutable Turning turning_;

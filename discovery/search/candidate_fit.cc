@@ -43,15 +43,13 @@ double TrustRegion(const CaseModel& model, const Hypothesis& h) {
                                                                             : kShortSteps;
 }
 
-FitOptions Brief(const CaseModel& model, const FitResult& now, const Hypothesis& start,
-                 double effective_sample_size) {
+FitOptions Brief(const FitResult& now, double effective_sample_size) {
   FitOptions brief;
   brief.effective_sample_size = effective_sample_size;
   brief.base_jacobian = &now.jacobian;
   brief.reached = now.ratio_fit;
   brief.iterations = 4;
   brief.passes = 1;
-  brief.trust_region = TrustRegion(model, start);
   brief.tolerance = 1e-4;
   brief.least_share = 0.01;
   brief.sensitivities = false;
@@ -182,14 +180,14 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
 
 FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothesis& start,
                      double effective_sample_size) {
-  return TryFit(model, start, Brief(model, now, start, effective_sample_size));
+  FitOptions brief = Brief(now, effective_sample_size);
+  brief.trust_region = TrustRegion(model, start);
+  return TryFit(model, start, brief);
 }
 
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
                      double effective_sample_size) {
-  Hypothesis first = now.hypothesis;
-  first.AddEffect(candidate.effect);
-  FitOptions brief = Brief(model, now, first, effective_sample_size);
+  FitOptions brief = Brief(now, effective_sample_size);
   brief.lent = static_cast<std::size_t>(now.jacobian.cols());
   // weighed by what it promises: by the weight of an error that it takes away, the prior would hold
   // the rig parameters where they stood in for it
@@ -205,6 +203,7 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
   for (const EffectInstance& start : starts) {
     Hypothesis h = now.hypothesis;
     h.AddEffect(start);
+    brief.trust_region = TrustRegion(model, h);
     FitResult fit = candidate.narrow ? FitResonance(model, h, brief)
                                      : FitAsPromised(model, h, candidate, brief);
     if (!fit.converged || Score(model, fit, effective_sample_size) >= best_score) continue;

@@ -1,7 +1,6 @@
 #include "discovery/search/effect_round.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "discovery/search/candidate_fit.h"

@@ -41,7 +41,7 @@ TEST(FitShortly, FollowsAValleyToItsEnd) {
   ASSERT_TRUE(fit.converged);
   EXPECT_NEAR(fit.hypothesis.rig.effects[0].Value("gain"), 1.6, 0.1);
   EXPECT_LT(fit.ratio_validate, 1);
-  FitOptions short_steps;  // what it did before: the side of the valley
+  FitOptions short_steps;  // these end on the side of the valley
   short_steps.effective_sample_size = kFitN;
   short_steps.passes = 1;
   EXPECT_GT(Fit(c.model, start, short_steps).ratio_validate, 3);
