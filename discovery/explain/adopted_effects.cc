@@ -42,6 +42,12 @@ bool AdoptedEffects::IsBesideShape(const EffectInstance& e) const {
   return std::ranges::count(beside_shape_, Named(e)) > 0;
 }
 
+void AdoptedEffects::NoteSizeless(const EffectInstance& e) { sizeless_.push_back(Named(e)); }
+
+bool AdoptedEffects::IsSizeless(const EffectInstance& e) const {
+  return std::ranges::count(sizeless_, Named(e)) > 0;
+}
+
 bool AdoptedEffects::ShapeExplainsAll() const {
   return size() == 1 && shaped && shaped->Answered() < kShapeExplains;
 }

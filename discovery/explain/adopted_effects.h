@@ -44,6 +44,10 @@ class AdoptedEffects {
   void NoteBesideShape(const EffectInstance& e);
   bool IsBesideShape(const EffectInstance& e) const;
 
+  /// An effect whose last fit left it without a size: it is not tried again beside the others.
+  void NoteSizeless(const EffectInstance& e);
+  bool IsSizeless(const EffectInstance& e) const;
+
   /// Whether one of them is a law of the same magnetisation curve as `e` would be: a second one
   /// adds a detail of its shape.
   bool HoldMagnetisationOf(const EffectInstance& e) const;
@@ -61,7 +65,7 @@ class AdoptedEffects {
  private:
   std::size_t of_rig_;
   std::vector<EffectInstance> all_;
-  std::vector<std::string> of_own_channels_, beside_shape_;  // names with their targets
+  std::vector<std::string> of_own_channels_, beside_shape_, sizeless_;  // names with targets
 };
 
 }  // namespace ambrig

@@ -5,7 +5,7 @@
 
 namespace ambrig {
 
-void EffectRemoval::DropSizeless(const FitResult& base, FitResult& now) {
+bool EffectRemoval::DropSizeless(const FitResult& base, FitResult& now) {
   // What the law of the first effect leaves may pass for a small effect beside it, but for none
   // that explains its own channels. Where only its free shape explains the records the size of the
   // law says little.
@@ -18,9 +18,10 @@ void EffectRemoval::DropSizeless(const FitResult& base, FitResult& now) {
   };
   std::size_t sizeless = 0;
   while (sizeless < adopted_.size() && has_size(sizeless)) ++sizeless;
-  if (sizeless == adopted_.size()) return;
+  if (sizeless == adopted_.size()) return false;
   log_.warnings.push_back(Named(adopted_[sizeless]) +
                           " lies within 3 sd of nothing: it is not named");
+  adopted_.NoteSizeless(adopted_[sizeless]);
   adopted_.Remove(sizeless);
   Hypothesis h = base.hypothesis;
   for (const EffectInstance& e : adopted_.all()) h.AddEffect(e);
@@ -31,6 +32,7 @@ void EffectRemoval::DropSizeless(const FitResult& base, FitResult& now) {
   adopted_.Renew(now);
   log_.Step("without an effect of no size", now);
   DropSizeless(base, now);
+  return true;
 }
 
 void EffectRemoval::DropSuperseded(const FitResult& base, FitResult& now) {

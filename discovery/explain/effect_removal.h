@@ -22,8 +22,8 @@ class EffectRemoval {
         log_(log),
         progress_(progress) {}
 
-  /// Effects that the last fit leaves without a size.
-  void DropSizeless(const FitResult& base, FitResult& now);
+  /// Effects that the last fit leaves without a size. Whether there were any.
+  bool DropSizeless(const FitResult& base, FitResult& now);
   /// Effects that their successors made needless.
   void DropSuperseded(const FitResult& base, FitResult& now);
   /// Further effects in whose place several others explain as much cannot be named: a detail of the

@@ -59,7 +59,7 @@ bool EffectSelection::AdoptBest(FitResult& now, int round) {
     if (!r.fit.Stands()) return false;
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
     if (!HasSize(r.fit, last) || IsDetailOf(adopted_.all(), FittedEffect(r.fit, last)) ||
-        adopted_.HoldMagnetisationOf(r.effect))
+        adopted_.HoldMagnetisationOf(r.effect) || adopted_.IsSizeless(r.effect))
       return false;
     const double gain = models_.ScoreOf(now) - r.score;
     worth =
@@ -87,9 +87,11 @@ bool EffectSelection::AdoptBest(FitResult& now, int round) {
   return true;
 }
 
-void EffectSelection::AdoptMore(FitResult& now) {
+bool EffectSelection::AdoptMore(FitResult& now) {
+  const std::size_t before = adopted_.size();
   for (int round = static_cast<int>(adopted_.size()); round < options_.rounds; ++round)
     if (!AdoptBest(now, round)) break;
+  return adopted_.size() > before;
 }
 
 }  // namespace ambrig

@@ -28,8 +28,8 @@ class EffectSelection {
         options_(options),
         adopted_one_(std::move(adopted_one)) {}
 
-  /// Adds one effect after the other to `now`, as long as one is worth it.
-  void AdoptMore(FitResult& now);
+  /// Adds one effect after the other to `now`, as long as one is worth it. Whether one was.
+  bool AdoptMore(FitResult& now);
   /// Whether nothing is left that a further effect could explain.
   bool Finished(const FitResult& now) const;
 

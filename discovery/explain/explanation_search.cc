@@ -87,7 +87,7 @@ Explanation ExplanationSearch::Search(const Hypothesis& nominal, const FitResult
   FitResult now = base;
   FindEffects(as_filed, base, now);
   Polish(now);
-  removal_.DropSizeless(base, now);
+  ReplaceSizeless(base, now);
   if (!adopted_.empty()) nuisances_.DropNeedless(base, now);
   if (!adopted_.ShapeExplainsAll() && FindWhatDiffers(base, now)) return {};
   if (FindWrongData(now)) return report_.OfWrongData(base, base.ratio_validate);
@@ -231,7 +231,12 @@ void ExplanationSearch::SettleBesideNuisances(const FitResult& base, FitResult& 
   if (found_before && removal_.DropNeedlessBesideNuisances(base, now)) selection_.AdoptMore(now);
   if (found_before) comparison_.Compare(base, now, NameComparison::Names::kAllAgain);
   Polish(now);
-  removal_.DropSizeless(base, now);
+  ReplaceSizeless(base, now);
+}
+
+void ExplanationSearch::ReplaceSizeless(const FitResult& base, FitResult& now) {
+  while (removal_.DropSizeless(base, now) && !adopted_.empty() && selection_.AdoptMore(now))
+    Polish(now);
 }
 
 void ExplanationSearch::Polish(FitResult& now) {

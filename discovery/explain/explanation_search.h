@@ -48,6 +48,9 @@ class ExplanationSearch {
   bool FindWhatDiffers(FitResult& base, FitResult& now);
   /// What was found before the nuisances were may be needless beside them, and have another name.
   void SettleBesideNuisances(const FitResult& base, FitResult& now, bool found_before);
+  /// An effect that the last fit leaves without a size stood in the place of another one: the names
+  /// beside the remaining ones are compared without it.
+  void ReplaceSizeless(const FitResult& base, FitResult& now);
   /// A last fit with fresh sensitivities of everything.
   void Polish(FitResult& now);
   /// Whether records have to be corrected beside the nuisances found.

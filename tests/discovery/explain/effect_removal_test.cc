@@ -18,8 +18,11 @@ TEST_F(EffectRemovalTest, AnEffectWithoutASizeIsRemovedWithAWarning) {
   h.AddEffect(LinearCase::Offset(1e-8));
   FitResult now = models_.FitFrom(h);
   adopted_.AddLastOf(now);
-  removal.DropSizeless(base, now);
+  const EffectInstance offset = adopted_[0];
+  EXPECT_TRUE(removal.DropSizeless(base, now));
   EXPECT_TRUE(adopted_.empty());
+  EXPECT_TRUE(adopted_.IsSizeless(offset));
+  EXPECT_FALSE(removal.DropSizeless(base, now));
   EXPECT_EQ(now.ratio_fit, base.ratio_fit);
   ASSERT_EQ(log_.warnings.size(), 1u);
   EXPECT_EQ(log_.warnings[0], "sensor-offset at A.x lies within 3 sd of nothing: it is not named");

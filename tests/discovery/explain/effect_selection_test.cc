@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/discovery/explain/search_parts.h"
+#include "tests/discovery/linear_case.h"
 
 namespace ambrig {
 namespace {
@@ -22,7 +23,7 @@ TEST_F(OffsetOfOneSensor, IsAdoptedAndLeavesNothing) {
                             options_, [&] { ++adoptions; });
   FitResult now = models_.FitFrom(nominal_);
   EXPECT_FALSE(selection.Finished(now));
-  selection.AdoptMore(now);
+  EXPECT_TRUE(selection.AdoptMore(now));
   ASSERT_EQ(adopted_.size(), 1u);
   EXPECT_EQ(Named(adopted_[0]), "sensor-offset at A.x");
   EXPECT_NEAR(adopted_[0].Value("offset"), 3e-6, 2e-7);
@@ -33,6 +34,18 @@ TEST_F(OffsetOfOneSensor, IsAdoptedAndLeavesNothing) {
   EXPECT_FALSE(names_.first().empty());
   EXPECT_FALSE(names_.screened().empty());
   EXPECT_GT(adopted_.first_fall, 1);
+}
+
+// What a last fit left without a size gives its place to the next in the ranking.
+TEST_F(OffsetOfOneSensor, IsNotAdoptedOnceItHadNoSize) {
+  EffectSelection selection(models_, nuisances_, coils_, adopted_, names_, log_, progress_,
+                            options_, [] {});
+  adopted_.NoteSizeless(LinearCase::Offset(3e-6));
+  FitResult now = models_.FitFrom(nominal_);
+  selection.AdoptMore(now);
+  ASSERT_FALSE(names_.first().empty());
+  EXPECT_EQ(Named(names_.first()[0].effect), "sensor-offset at A.x");
+  for (const EffectInstance& e : adopted_.all()) EXPECT_NE(Named(e), "sensor-offset at A.x");
 }
 
 }  // namespace
