@@ -10,6 +10,7 @@
 #include "actuators/electronics/power_bridge.h"
 #include "actuators/magnetics/flux_law.h"
 #include "actuators/magnetics/stator_lanes.h"
+#include "effects/bus_supply.h"
 #include "rotor/motion/position_sensor.h"
 #include "rotor/motion/rotor_model.h"
 #include "rotor/motion/speed_sensor.h"
@@ -53,15 +54,6 @@ struct BearingPlant {
   CoilHeating heating;
   Lane base_resistance;               // before heating
   double offset_x = 0, offset_y = 0;  // magnetic centre against the sensor's zero [m]
-};
-
-/// The supply at the amplifiers: stiff, or a source resistance feeding a capacitance.
-struct BusSupply {
-  double source = 0;       // [V]
-  double resistance = 0;   // [ohm], 0: stiff
-  double capacitance = 0;  // [F]
-  double voltage = 0;      // state [V]
-  bool stiff() const { return resistance <= 0; }
 };
 
 struct Plant {

@@ -57,7 +57,7 @@ Plant BuildPlant(const TrueRig& true_rig) {
     if (b.kind->two_axes) plant.planes.emplace_back(b.name, b.z);
   for (const auto& [description, instance] : live)
     if (description->shape) description->shape(*instance, plant);
-  plant.bus.source = plant.bus.voltage = rig.amplifier.bus_voltage;
+  plant.bus.Start(rig.amplifier.bus_voltage);
   plant.bridge = PowerBridge(rig.amplifier);
   plant.loop_delay = rig.amplifier.delay;
   plant.speed_sensor = SpeedSensor(rig.speed_sensor);

@@ -2,7 +2,6 @@
 /// samples of the circuits (side by side, or in lockstep where something ties them together), what
 /// is measured of them.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "simulation/sampled/instants.h"
@@ -129,13 +128,7 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
       b.plant->lanes.StepSample(b.pattern, plant_.bus.voltage, k);
       if (!plant_.bus.stiff()) drawn += b.plant->lanes.BusCurrent(b.pattern, k);
     }
-    if (!plant_.bus.stiff()) {
-      const BusSupply& bus = plant_.bus;
-      const double settled = bus.source - bus.resistance * drawn;
-      const double keep =
-          bus.capacitance > 0 ? std::exp(-h / (bus.resistance * bus.capacitance)) : 0;
-      plant_.bus.voltage = settled + (bus.voltage - settled) * keep;
-    }
+    if (!plant_.bus.stiff()) plant_.bus.Advance(drawn, h);
     EndFaultsBefore(t + h);
   }
   for (; done < due.size(); ++done) Inject(*due[done]);
