@@ -76,6 +76,11 @@ double ChannelValues::BearingValueInBurst(const Column& column, int sample) cons
   return *Place(column);
 }
 
+double ChannelValues::BusAt(int sample, bool burst) const {
+  const bool moves = burst && !source_.plant.bus.stiff();
+  return moves ? source_.bus_samples[static_cast<std::size_t>(sample)] : source_.plant.bus.voltage;
+}
+
 double ChannelValues::Value(const Column& column, long long n, int sample, bool burst,
                             bool ahead) const {
   const MotionState& motion = source_.motion;
@@ -92,7 +97,7 @@ double ChannelValues::Value(const Column& column, long long n, int sample, bool 
     case ChannelKind::kAngle:
       return rotor.SpeedIsFree(t) ? motion.theta + motion.Omega * inside : rotor.speed().Angle(t);
     case ChannelKind::kBus:
-      return source_.noise.BusReading(source_.plant.bus.voltage,
+      return source_.noise.BusReading(BusAt(sample, burst),
                                       scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample);
     default:
       break;

@@ -21,6 +21,8 @@ struct RowSource {
   PositionLoop& loop;
   MeasurementNoise& noise;
   const std::vector<BearingControl>& control;
+  /// Of a bus that moves, its voltage [V] at each ADC sample of the last period.
+  const std::vector<double>& bus_samples;
   std::vector<const SampledBearing*> bearings;
 };
 
@@ -60,6 +62,7 @@ class ChannelValues {
  private:
   double Value(const Column& column, long long n, int sample, bool burst, bool ahead) const;
   double BearingValueInBurst(const Column& column, int sample) const;
+  double BusAt(int sample, bool burst) const;
 
   const RigParameters& rig_;
   const Scenario& scenario_;

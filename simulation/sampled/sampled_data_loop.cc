@@ -34,6 +34,7 @@ SampledDataLoop::SampledDataLoop(const RigParameters& given, const Scenario& s,
   T = 1 / rig.amplifier.switching_frequency;
   samples = rig.samples_per_period();
   h = T / samples;
+  bus_samples.assign(static_cast<std::size_t>(samples), plant.bus.voltage);
   M = nominal->periods_per_control();
   periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
   computing_ = static_cast<long long>(std::ceil(nominal->detection.computing_time / T - 1e-6));
@@ -197,7 +198,7 @@ void SampledDataLoop::ReadAhead(long long n) {
 }
 
 RowSource SampledDataLoop::ValueSource() {
-  RowSource source{plant, motion, *loop_, *noise_, control, {}};
+  RowSource source{plant, motion, *loop_, *noise_, control, bus_samples, {}};
   for (const SampledBearing& b : bearings) source.bearings.push_back(&b);
   return source;
 }

@@ -110,9 +110,10 @@ class SampledDataLoop {
   MotionState motion;
   std::vector<SampledBearing> bearings;
   std::vector<BearingControl> control;
-  double T = 0, h = 0;      // switching period, ADC sample [s]
-  int M = 1, samples = 18;  // periods per controller period, ADC samples per period
-  bool clamped = false;     // nothing moves the rotor
+  std::vector<double> bus_samples;  // of a bus that moves, as the engine passes them [V]
+  double T = 0, h = 0;              // switching period, ADC sample [s]
+  int M = 1, samples = 18;          // periods per controller period, ADC samples per period
+  bool clamped = false;             // nothing moves the rotor
   long long warm = 0, periods = 0;
 
  private:

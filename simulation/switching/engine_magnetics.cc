@@ -123,6 +123,8 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
       Inject(*due[done]);
       ++done;
     }
+    if (!plant_.bus.stiff() && k % options_.substeps == 0)
+      loop_.bus_samples[static_cast<std::size_t>(k / options_.substeps)] = plant_.bus.voltage;
     double drawn = 0;
     for (BearingRun& b : bearings_) {
       b.plant->lanes.StepSample(b.pattern, plant_.bus.voltage, k);

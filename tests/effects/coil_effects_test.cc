@@ -1,4 +1,4 @@
-// Effects of coils, amplifiers, bus and current measurement, each against a closed form.
+// Effects of coils, amplifiers and current measurement, each against a closed form.
 #include <gtest/gtest.h>
 
 #include "effects/coil_targets.h"
@@ -156,30 +156,6 @@ TEST(CurrentSensor, GainAndOffsetReachTheirCoilsOnly) {
     EXPECT_EQ(offset.bearings[1].current_sensor[j].offset, -0.05);
     EXPECT_EQ(offset.bearings[0].current_sensor[j].offset, 0.0);
   }
-}
-
-// Settled, the supply delivers the copper loss and the drops: U = U_s - R i_drawn with
-// U i_drawn = power of the sixteen coils.
-TEST(BusImpedance, SettledBusCarriesTheCopperLoss) {
-  RigParameters rig = WithExactCoils(ReferenceRig());
-  rig.amplifier.switch_drop = rig.amplifier.diode_drop = 0;
-  const double resistance = 0.3, high = 4;
-  const RigParameters with =
-      WithEffect(rig, "bus-impedance", "rig", {{"resistance", resistance}, {"capacitance", 0.04}});
-  const RunResult result = RunText(with, ClampedText(high, 0.1));
-  const double bus = TailMean(result.record, "bus", 250);
-  // Coils of B are told nothing: they stay at the lower duty limit and draw next to nothing.
-  double power = 0;
-  for (int j = 1; j <= 8; ++j) {
-    const double i = TailMean(result.record, "A.i" + std::to_string(j), 250);
-    power += rig.bearings[0].radial.resistance * i * i;
-  }
-  const double source = rig.amplifier.bus_voltage;
-  const double wanted = 0.5 * (source + std::sqrt(source * source - 4 * resistance * power));
-  EXPECT_LT(wanted, source - 0.5);
-  // Rows show the bus at the start of a period, half its ripple (32 A over 20 us in 40 mF) above
-  // the mean: 1.3 % of the sag. Ripple current adds copper loss: (0.2/4)²/3 of it.
-  EXPECT_NEAR(bus, wanted, 0.02 * (source - wanted));
 }
 
 // The on-phase is shorter by t_d: the loop gives back the duty t_d f_sw.
