@@ -25,7 +25,7 @@ BusSupply Supply(double inductance, double series_resistance) {
   return bus;
 }
 
-/// Voltage at the amplifiers after 4 ms with the draw of each step held, by Runge-Kutta steps of a
+/// Voltage at the amplifiers at `until` [s], the draw of each sample held, by Runge-Kutta steps of a
 /// hundredth.
 double ByFineSteps(const BusSupply& of, double until) {
   using State = std::array<double, 2>;  // i, U_C
