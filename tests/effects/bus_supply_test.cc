@@ -25,8 +25,8 @@ BusSupply Supply(double inductance, double series_resistance) {
   return bus;
 }
 
-/// Voltage at the amplifiers at `until` [s], the draw of each sample held, by Runge-Kutta steps of a
-/// hundredth.
+/// Voltage at the amplifiers at `until` [s], the draw of each sample held, by Runge-Kutta steps of
+/// a hundredth.
 double ByFineSteps(const BusSupply& of, double until) {
   using State = std::array<double, 2>;  // i, U_C
   const double r = of.resistance, l = of.inductance, c = of.capacitance, rc = of.series_resistance;
