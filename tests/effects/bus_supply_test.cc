@@ -57,7 +57,7 @@ double Advanced(BusSupply bus, double until) {
 }
 
 TEST(BusSupply, AChokeRingsAndSettlesAsItsEquationsDo) {
-  // damping ratios 0.32 and 6.4 with a series resistance, 0.9 without
+  // damping ratios 0.32 and 6.5 with a series resistance, 0.9 without
   for (const BusSupply& bus : {Supply(4e-4, 0.01), Supply(1e-6, 0.01), Supply(5e-5, 0)})
     for (const double until : {3e-4, 1e-3, 4e-3})
       EXPECT_NEAR(Advanced(bus, until), ByFineSteps(bus, until), 1e-7)
